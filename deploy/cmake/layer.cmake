@@ -1,0 +1,35 @@
+# volcast_layer(NAME FOLDER [LINK targets...] [ONLY regex] [EXCEPT regex]): a static library of the
+# sources directly in FOLDER. Every layer is one target, linked to what its row of the include
+# table allows. main.cpp is never part of a layer.
+function(volcast_layer name folder)
+    cmake_parse_arguments(LAYER "" "ONLY;EXCEPT" "LINK" ${ARGN})
+    file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${folder}/*.cpp)
+    list(FILTER sources EXCLUDE REGEX "/main\\.cpp$")
+    if(LAYER_ONLY)
+        list(FILTER sources INCLUDE REGEX "${LAYER_ONLY}")
+    endif()
+    if(LAYER_EXCEPT)
+        list(FILTER sources EXCLUDE REGEX "${LAYER_EXCEPT}")
+    endif()
+    if(sources)
+        add_library(${name} STATIC ${sources})
+        target_link_libraries(${name} PUBLIC ${LAYER_LINK})
+    else()
+        add_library(${name} INTERFACE)
+        target_link_libraries(${name} INTERFACE ${LAYER_LINK})
+    endif()
+endfunction()
+
+# volcast_test(NAME FOLDER LABEL label [LINK targets...]): one GoogleTest program of FOLDER's
+# *_test.cpp. `cpu` tests need no GPU, `gl` tests a context, `e2e` tests start real processes.
+function(volcast_test name folder)
+    cmake_parse_arguments(TEST "" "LABEL" "LINK" ${ARGN})
+    file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${folder}/*.cpp)
+    if(NOT sources)
+        return()
+    endif()
+    add_executable(${name} ${sources})
+    target_link_libraries(${name} PRIVATE ${TEST_LINK} GTest::gmock GTest::gtest_main)
+    gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST
+                         PROPERTIES LABELS ${TEST_LABEL} TIMEOUT 300)
+endfunction()

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <string>
+#include <variant>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "renderer/data/mesh.h"
+#include "renderer/data/volume.h"
+
+namespace volcast::data {
+
+/// What one import yields: one mesh or one volume.
+using Dataset = std::variant<Mesh, Volume>;
+
+struct Box {
+    glm::dvec3 min{0.0};
+    glm::dvec3 max{0.0};
+};
+
+/// One field or channel as users see it.
+struct FieldSummary {
+    std::string name;
+    std::string unit;
+    Association association = Association::kVertex;  ///< kVertex for voxel channels.
+    Range range;
+    int steps = 1;
+    std::vector<std::uint32_t> histogram;  ///< Counts in equal bins over `range`.
+};
+
+/// What is worth knowing of a dataset without holding it; all that plans and clients need.
+struct DatasetSummary {
+    bool isMesh = true;
+    Box bounds;  ///< World, axis-aligned.
+    std::uint64_t cells = 0;
+    std::uint64_t vertices = 0;
+    std::uint64_t boundaryFaces = 0;
+    bool convex = false;
+    std::uint64_t cellsWithoutVolume = 0;
+    std::uint64_t cellsInverted = 0;
+    glm::ivec3 voxels{0};
+    glm::dvec3 spacing{0.0};
+    VoxelType voxelType = VoxelType::kF32;
+    std::vector<FieldSummary> fields;
+    std::uint64_t bytes = 0;  ///< Size of the data as drawn.
+};
+
+/// Histograms have 256 bins over at most 2^14 evenly spread samples.
+DatasetSummary summarize(const Dataset& dataset);
+
+}  // namespace volcast::data

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "renderer/base/file_descriptor.h"
+#include "renderer/base/result.h"
+#include "renderer/data/dataset.h"
+
+namespace volcast::data {
+
+/// Writes `dataset` into a new memfd, sealed against every change. This is how an import process
+/// hands data to the server and the server to its workers: nobody copies or parses again.
+///
+/// Errors: kIo (no memory).
+Result<base::FileDescriptor> pack(const Dataset& dataset);
+
+/// Maps a packed dataset; the arrays view the mapping and keep it alive.
+///
+/// The bytes are not trusted (an importer that a hostile file took over may have written them):
+/// sizes, offsets, ids, finiteness and ranges are all checked.
+/// Errors: kInvalidArgument naming what is wrong, kIo.
+Result<Dataset> unpack(const base::FileDescriptor& fd);
+
+}  // namespace volcast::data

@@ -1,0 +1,82 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "renderer/base/result.h"
+#include "renderer/data/dataset.h"
+#include "renderer/gpu/device.h"
+#include "renderer/plan/plan.h"
+#include "renderer/scene/scene.h"
+#include "renderer/shading/assemble.h"
+
+namespace volcast::scene {
+
+/// Work done on the GPU's account; tests read it to see that a diff costs what it should.
+struct Counters {
+    std::uint64_t bufferUploads = 0;
+    std::uint64_t textureUploads = 0;
+    std::uint64_t uploadedBytes = 0;
+    std::uint64_t programsBuilt = 0;
+    std::uint64_t drawCalls = 0;      ///< Draws and dispatches.
+    std::uint64_t framesDrawn = 0;    ///< render() calls that drew; the others reused the picture.
+};
+
+/// What one call of render() made and took.
+struct FrameInfo {
+    plan::FramePlan plan;
+    double uploadMs = 0.0;
+    double drawMs = 0.0;      ///< Until the GPU was done.
+    double readbackMs = 0.0;
+    bool drawn = false;       ///< False: nothing had changed, the last picture was read again.
+    Counters work;            ///< Of this call alone.
+};
+
+/// Where pixels go; rows from the top. Either may be empty.
+struct FrameTarget {
+    std::span<std::byte> rgba8;  ///< 4 bytes a pixel: sRGB-encoded, composited over the background,
+                                 ///< straight alpha.
+    std::span<float> rgba32f;    ///< 4 floats a pixel: linear, premultiplied, without background.
+};
+
+/// Draws scenes of several views on one device; all calls on the device's thread.
+///
+/// Keeps what is on the GPU as a cache: datasets, and a picture and last scene for each view.
+class Renderer {
+public:
+    /// Errors: kShaderBuild, kOutOfGpuMemory, kDeviceLost.
+    static Result<std::unique_ptr<Renderer>> create(gpu::Device& device,
+                                                    const shading::ChunkSource& chunks);
+    virtual ~Renderer() = default;
+    Renderer(const Renderer&) = delete;
+    Renderer& operator=(const Renderer&) = delete;
+    Renderer(Renderer&&) = delete;
+    Renderer& operator=(Renderer&&) = delete;
+
+    /// Makes `dataset` drawable under `id`; replaces one of the same id. Uploads nothing until a
+    /// scene needs it.
+    virtual void addDataset(const std::string& id, data::Dataset dataset) = 0;
+    virtual void removeDataset(const std::string& id) = 0;
+
+    /// Draws `scene` for `view` at `size` and fills `target`; only what differs from the view's
+    /// last scene is uploaded, compiled and drawn.
+    ///
+    /// `scene` is validated here against the data. On an error the view is as it was.
+    /// Errors: as scene::validate, and kShaderBuild, kOutOfGpuMemory, kDeviceLost.
+    virtual Result<FrameInfo> render(std::uint64_t view, const Scene& scene, PictureSize size,
+                                     const FrameTarget& target) = 0;
+
+    /// Frees what `view` holds; unknown views are fine.
+    virtual void dropView(std::uint64_t view) = 0;
+
+    [[nodiscard]] virtual const Counters& counters() const noexcept = 0;
+
+protected:
+    Renderer() = default;
+};
+
+}  // namespace volcast::scene

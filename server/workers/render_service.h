@@ -1,0 +1,109 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "renderer/base/file_descriptor.h"
+#include "renderer/base/result.h"
+#include "renderer/plan/plan.h"
+#include "renderer/scene/scene.h"
+
+namespace volcast::workers {
+
+/// A picture as the worker drew it, copied out of shared memory; rows from the top.
+struct Picture {
+    scene::PictureSize size{0};
+    std::vector<std::byte> rgba8;   ///< sRGB over the background, straight alpha.
+    std::vector<float> rgba32f;     ///< Linear, premultiplied, no background; empty if unwanted.
+};
+
+struct RenderRequest {
+    std::uint64_t view = 0;  ///< Unique in this server.
+    std::uint64_t tag = 0;   ///< Comes back with the picture; the session puts input_seq here.
+    scene::Scene scene;
+    scene::PictureSize size{512, 512};
+    bool wantFloat = false;
+};
+
+struct WorkDone {
+    std::uint64_t bufferUploads = 0, textureUploads = 0, uploadedBytes = 0, programsBuilt = 0,
+                  drawCalls = 0, framesDrawn = 0;
+};
+
+struct RenderedFrame {
+    std::uint64_t view = 0;
+    std::uint64_t tag = 0;
+    std::shared_ptr<const Picture> picture;
+    plan::FramePlan plan;
+    double waitMs = 0, uploadMs = 0, drawMs = 0, readbackMs = 0, copyMs = 0, cpuMs = 0;
+    double workerPeakMb = 0;
+    bool drawn = false;
+    WorkDone work;
+    std::uint32_t generation = 0;  ///< Of the worker; grows with each replacement.
+};
+
+struct RenderSettings {
+    std::string workerPath;        ///< Empty: `volcast-worker` beside this program.
+    std::string gpu;               ///< Empty: surfaceless; else a device as `doctor` lists it.
+    std::string cacheFolder;       ///< For the driver's shader cache; empty: a private temporary one.
+    std::chrono::milliseconds frameDeadline{10'000};  ///< Upload, compile, link and draw together.
+    std::chrono::milliseconds startDeadline{20'000};
+    bool warmSpare = true;
+};
+
+struct RenderStatus {
+    bool ready = false;
+    std::uint32_t generation = 0;
+    std::uint32_t losses = 0;      ///< Workers lost since start.
+    bool spareReady = false;
+    int workerPid = 0;             ///< Of the one that draws now; 0: none.
+    std::string glRenderer, glVersion;
+    std::string lastLoss;          ///< "killed by signal 9", "missed its deadline of 10000 ms".
+};
+
+/// Calls back on the service's own thread; must return soon and may call the service.
+struct RenderEvents {
+    std::function<void(RenderedFrame)> rendered;
+    /// The request was refused or failed; the view keeps its last good picture.
+    std::function<void(std::uint64_t view, std::uint64_t tag, Error)> failed;
+    /// The worker of these views was lost; their last requests are drawn again by themselves.
+    std::function<void(std::vector<std::uint64_t> views)> recovering;
+};
+
+/// Draws pictures in `volcast-worker` processes and replaces them when they exit, are killed,
+/// are stopped, hang, or miss a deadline. One worker draws, one warm spare waits.
+///
+/// Each view has a one-slot mailbox: a newer request replaces one that has not started. Views
+/// take turns. A request in flight when its worker is lost is drawn again by the next; one that
+/// loses two workers in a row fails with kDeviceLost and does not take a third one down.
+/// All methods may be called from any thread.
+class RenderService {
+public:
+    /// Starts the first worker and waits until it is ready.
+    ///
+    /// Errors: kNotFound (no worker program), kUnsupported (no EGL, GL too old; the worker's
+    /// words), kTimeout, kIo.
+    static Result<std::unique_ptr<RenderService>> create(RenderSettings settings,
+                                                         RenderEvents events);
+    virtual ~RenderService() = default;
+    RenderService(const RenderService&) = delete;
+    RenderService& operator=(const RenderService&) = delete;
+    RenderService(RenderService&&) = delete;
+    RenderService& operator=(RenderService&&) = delete;
+
+    /// Gives every worker, now and later, the packed dataset; it must be sealed.
+    virtual void addDataset(const std::string& id, base::FileDescriptor packed) = 0;
+    virtual void removeDataset(const std::string& id) = 0;
+    virtual void submit(RenderRequest request) = 0;
+    virtual void dropView(std::uint64_t view) = 0;
+    [[nodiscard]] virtual RenderStatus status() const = 0;
+
+protected:
+    RenderService() = default;
+};
+
+}  // namespace volcast::workers
