@@ -1,5 +1,6 @@
 #include "protocol/framing.h"
 
+#include <algorithm>
 #include <string>
 
 #include <google/protobuf/util/json_util.h>
@@ -75,9 +76,9 @@ std::vector<std::byte> encodeFrameHead(std::uint32_t view, std::uint32_t sequenc
                                 .headerBytes = static_cast<std::uint32_t>(text.size()),
                                 .view = view,
                                 .sequence = sequence});
-    std::vector<std::byte> head(prefix.begin(), prefix.end());
-    const auto bytes = std::as_bytes(std::span{text});
-    head.insert(head.end(), bytes.begin(), bytes.end());
+    std::vector<std::byte> head(kPrefixBytes + text.size());
+    std::ranges::copy(prefix, head.begin());
+    std::ranges::copy(std::as_bytes(std::span{text}), head.begin() + kPrefixBytes);
     return head;
 }
 
