@@ -56,8 +56,8 @@ Result<FramePrefix> decodePrefix(std::span<const std::byte> message) {
     }
     if (prefix.type != kFrameType) return refuse("type " + std::to_string(prefix.type));
     if (prefix.headerBytes > message.size() - kPrefixBytes) {
-        return refuse("header of " + std::to_string(prefix.headerBytes) + " bytes in a message of " +
-                      std::to_string(message.size()));
+        return refuse("header of " + std::to_string(prefix.headerBytes) +
+                      " bytes in a message of " + std::to_string(message.size()));
     }
     return prefix;
 }

@@ -21,16 +21,16 @@ struct BoundaryFace {
 /// Cell (a, b, c, d) is positively oriented: dot(cross(b - a, c - a), d - a) > 0. Cells without
 /// volume are left out and counted. Vertex ids are the Morton order; every vertex is used.
 struct Mesh {
-    glm::dvec3 origin{0.0};             ///< World = origin + vertex: keeps far-away meshes exact.
-    base::Array<glm::vec3> vertices;    ///< Relative to `origin`, world units.
-    base::Array<glm::ivec4> cells;      ///< Vertex ids.
-    base::Array<glm::ivec4> neighbours; ///< Cell across the face opposite vertex i, or -1.
+    glm::dvec3 origin{0.0};              ///< World = origin + vertex: keeps far-away meshes exact.
+    base::Array<glm::vec3> vertices;     ///< Relative to `origin`, world units.
+    base::Array<glm::ivec4> cells;       ///< Vertex ids.
+    base::Array<glm::ivec4> neighbours;  ///< Cell across the face opposite vertex i, or -1.
     base::Array<BoundaryFace> boundaryFaces;
     /// For boundary face (a, b, c): the boundary faces across its edges ab, bc, ca; -1 where the
     /// boundary is not a manifold there.
     base::Array<glm::ivec3> boundaryNeighbours;
     std::vector<Field> fields;
-    bool convex = false;  ///< Every line meets the mesh in at most one piece.
+    bool convex = false;                   ///< Every line meets the mesh in at most one piece.
     std::uint64_t cellsWithoutVolume = 0;  ///< Left out on import.
     std::uint64_t cellsInverted = 0;       ///< Turned round on import.
 };

@@ -38,13 +38,13 @@ struct Layer {
     data::TransferFunction map;
     bool visible = true;
     // surface
-    bool coloured = false;                  ///< C(f) instead of `surfaceColour`.
-    glm::vec3 surfaceColour{0.8F};          ///< Linear RGB.
-    bool headlight = true;                  ///< c |n.w| instead of c.
+    bool coloured = false;          ///< C(f) instead of `surfaceColour`.
+    glm::vec3 surfaceColour{0.8F};  ///< Linear RGB.
+    bool headlight = true;          ///< c |n.w| instead of c.
     // volume of a mesh
     Integrator integrator = Integrator::kAuto;
     // voxels
-    double stepWorld = 0.0;                 ///< World units; 0: half the smallest spacing.
+    double stepWorld = 0.0;  ///< World units; 0: half the smallest spacing.
     Sampling sampling = Sampling::kTrilinear;
 
     friend bool operator==(const Layer&, const Layer&) = default;
