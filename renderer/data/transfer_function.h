@@ -12,9 +12,9 @@ namespace volcast::data {
 
 /// One point of a transfer function.
 struct ControlPoint {
-    float value = 0.0F;          ///< In the field's own unit.
-    glm::vec3 colour{0.0F};      ///< Linear RGB.
-    float extinction = 0.0F;     ///< 1 / world unit, >= 0.
+    float value = 0.0F;       ///< In the field's own unit.
+    glm::vec3 colour{0.0F};   ///< Linear RGB.
+    float extinction = 0.0F;  ///< 1 / world unit, >= 0.
     friend bool operator==(const ControlPoint&, const ControlPoint&) = default;
 };
 

@@ -40,9 +40,9 @@ struct Volume {
     static constexpr int kBrickSize = 16;  ///< Grid intervals a brick, along each axis.
 
     glm::ivec3 size{1};
-    glm::dvec3 spacing{1.0};     ///< World units between grid points; each > 0.
-    glm::dvec3 origin{0.0};      ///< World position of the first grid point.
-    glm::dmat3 direction{1.0};   ///< Columns are the grid's axes in the world; orthonormal.
+    glm::dvec3 spacing{1.0};    ///< World units between grid points; each > 0.
+    glm::dvec3 origin{0.0};     ///< World position of the first grid point.
+    glm::dmat3 direction{1.0};  ///< Columns are the grid's axes in the world; orthonormal.
     VoxelType type = VoxelType::kF32;
     std::vector<Channel> channels;
 

@@ -11,7 +11,7 @@ enum class Evaluator { kMeshWalk, kMeshRaster, kVolumeMarch };
 
 /// One effect, on or off, and why.
 struct Effect {
-    std::string name;    ///< Such as "gradient", "re-entry", "empty bricks".
+    std::string name;  ///< Such as "gradient", "re-entry", "empty bricks".
     bool on = false;
     std::string reason;  ///< For a human: "the mesh is convex".
 };
@@ -22,7 +22,7 @@ struct LayerPlan {
     Evaluator evaluator = Evaluator::kMeshWalk;
     std::string integrator;  ///< As in the frame header: "average", "march", or empty.
     std::vector<Effect> effects;
-    bool drawn = true;       ///< False where nothing can be seen (hidden, transparent everywhere).
+    bool drawn = true;  ///< False where nothing can be seen (hidden, transparent everywhere).
 
     /// State of the effect `name`; effects that the plan does not list are off.
     [[nodiscard]] bool has(const std::string& name) const;
@@ -30,7 +30,7 @@ struct LayerPlan {
 
 /// How a scene is drawn. Anything a plan leaves out costs nothing.
 struct FramePlan {
-    std::string id;  ///< Equal for equal plans: a short hash of all below.
+    std::string id;                 ///< Equal for equal plans: a short hash of all below.
     std::vector<LayerPlan> layers;  ///< In the scene's order.
 };
 

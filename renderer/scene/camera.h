@@ -13,7 +13,7 @@ enum class Projection { kPerspective, kOrthographic };
 struct Camera {
     glm::dvec3 eye{0.0, 0.0, 3.0};
     glm::dvec3 center{0.0};
-    glm::dvec3 up{0.0, 1.0, 0.0};   ///< Need not be perpendicular to the view direction.
+    glm::dvec3 up{0.0, 1.0, 0.0};  ///< Need not be perpendicular to the view direction.
     Projection projection = Projection::kPerspective;
     double fovyDegrees = 30.0;      ///< Vertical field of view, perspective only.
     double orthographicHeight = 2;  ///< Height of the picture in world units, orthographic only.

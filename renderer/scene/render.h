@@ -22,18 +22,18 @@ struct Counters {
     std::uint64_t textureUploads = 0;
     std::uint64_t uploadedBytes = 0;
     std::uint64_t programsBuilt = 0;
-    std::uint64_t drawCalls = 0;      ///< Draws and dispatches.
-    std::uint64_t framesDrawn = 0;    ///< render() calls that drew; the others reused the picture.
+    std::uint64_t drawCalls = 0;    ///< Draws and dispatches.
+    std::uint64_t framesDrawn = 0;  ///< render() calls that drew; the others reused the picture.
 };
 
 /// What one call of render() made and took.
 struct FrameInfo {
     plan::FramePlan plan;
     double uploadMs = 0.0;
-    double drawMs = 0.0;      ///< Until the GPU was done.
+    double drawMs = 0.0;  ///< Until the GPU was done.
     double readbackMs = 0.0;
-    bool drawn = false;       ///< False: nothing had changed, the last picture was read again.
-    Counters work;            ///< Of this call alone.
+    bool drawn = false;  ///< False: nothing had changed, the last picture was read again.
+    Counters work;       ///< Of this call alone.
 };
 
 /// Where pixels go; rows from the top. Either may be empty.

@@ -14,20 +14,20 @@
 namespace volcast::workers {
 
 struct ImportRequest {
-    std::string path;          ///< File or folder; "demo:mesh" and "demo:volume" are built in.
+    std::string path;  ///< File or folder; "demo:mesh" and "demo:volume" are built in.
     std::string tetgenSwitches = "pq1.414";  ///< For surfaces and point sets.
-    glm::dvec3 spacing{0.0};   ///< For image stacks, which do not say it; 0: 1.
-    std::string series;        ///< Which time steps or array, reserved; empty: all.
+    glm::dvec3 spacing{0.0};                 ///< For image stacks, which do not say it; 0: 1.
+    std::string series;                      ///< Which time steps or array, reserved; empty: all.
 };
 
 struct ImportSettings {
-    std::string importPath;    ///< Empty: `volcast-import` beside this program.
+    std::string importPath;  ///< Empty: `volcast-import` beside this program.
     std::chrono::milliseconds deadline{120'000};
     std::uint64_t maxMemoryBytes = std::uint64_t{8} << 30;
 };
 
 struct ImportedDataset {
-    base::FileDescriptor packed;      ///< Sealed; unpack() has accepted it.
+    base::FileDescriptor packed;  ///< Sealed; unpack() has accepted it.
     data::DatasetSummary summary;
     std::string format;
     std::vector<std::string> warnings;

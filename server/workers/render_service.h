@@ -17,8 +17,8 @@ namespace volcast::workers {
 /// A picture as the worker drew it, copied out of shared memory; rows from the top.
 struct Picture {
     scene::PictureSize size{0};
-    std::vector<std::byte> rgba8;   ///< sRGB over the background, straight alpha.
-    std::vector<float> rgba32f;     ///< Linear, premultiplied, no background; empty if unwanted.
+    std::vector<std::byte> rgba8;  ///< sRGB over the background, straight alpha.
+    std::vector<float> rgba32f;    ///< Linear, premultiplied, no background; empty if unwanted.
 };
 
 struct RenderRequest {
@@ -47,9 +47,9 @@ struct RenderedFrame {
 };
 
 struct RenderSettings {
-    std::string workerPath;        ///< Empty: `volcast-worker` beside this program.
-    std::string gpu;               ///< Empty: surfaceless; else a device as `doctor` lists it.
-    std::string cacheFolder;       ///< For the driver's shader cache; empty: a private temporary one.
+    std::string workerPath;   ///< Empty: `volcast-worker` beside this program.
+    std::string gpu;          ///< Empty: surfaceless; else a device as `doctor` lists it.
+    std::string cacheFolder;  ///< For the driver's shader cache; empty: a private temporary one.
     std::chrono::milliseconds frameDeadline{10'000};  ///< Upload, compile, link and draw together.
     std::chrono::milliseconds startDeadline{20'000};
     bool warmSpare = true;
@@ -58,11 +58,11 @@ struct RenderSettings {
 struct RenderStatus {
     bool ready = false;
     std::uint32_t generation = 0;
-    std::uint32_t losses = 0;      ///< Workers lost since start.
+    std::uint32_t losses = 0;  ///< Workers lost since start.
     bool spareReady = false;
-    int workerPid = 0;             ///< Of the one that draws now; 0: none.
+    int workerPid = 0;  ///< Of the one that draws now; 0: none.
     std::string glRenderer, glVersion;
-    std::string lastLoss;          ///< "killed by signal 9", "missed its deadline of 10000 ms".
+    std::string lastLoss;  ///< "killed by signal 9", "missed its deadline of 10000 ms".
 };
 
 /// Calls back on the service's own thread; must return soon and may call the service.
