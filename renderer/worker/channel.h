@@ -13,7 +13,8 @@ namespace volcast::worker {
 
 /// Descriptor at which a child process finds its end of the channel.
 inline constexpr int kChannelFd = 3;
-inline constexpr std::size_t kMaxChannelMessage = 192 * 1024;
+inline constexpr std::size_t kMaxChannelMessage = std::size_t{192} * 1024;
+inline constexpr std::size_t kMaxChannelDescriptors = 4;
 
 /// One end of a SOCK_SEQPACKET pair: whole messages, each with up to 4 descriptors.
 class Channel {
@@ -24,9 +25,16 @@ public:
 
     explicit Channel(base::FileDescriptor socket) noexcept : socket_{std::move(socket)} {}
 
-    /// Blocks until sent. Errors: kLimitExceeded (too long), kDeviceLost (the other end is gone).
+    /// Blocks until sent.
+    ///
+    /// Errors: kLimitExceeded (too long, too many descriptors), kDeviceLost (the other end is
+    /// gone), kInvalidArgument (nothing is set in `message`), kIo.
     Result<void> send(const google::protobuf::MessageLite& message,
                       const std::vector<int>& descriptors = {});
+
+    /// As send(), but never waits: false where the other end has not read enough yet.
+    Result<bool> trySend(const google::protobuf::MessageLite& message,
+                         const std::vector<int>& descriptors = {});
 
     /// Waits up to `timeout` (negative: for ever) and parses one message.
     ///
@@ -37,7 +45,11 @@ public:
     [[nodiscard]] int fd() const noexcept { return socket_.get(); }
 
 private:
+    Result<bool> sendWith(const google::protobuf::MessageLite& message,
+                          const std::vector<int>& descriptors, int flags);
+
     base::FileDescriptor socket_;
+    std::vector<char> buffer_;  ///< Of the next message, either way.
 };
 
 struct Channel::Pair {
