@@ -8,15 +8,16 @@
 
 namespace volcast::base {
 
-/// What a process may still do after enterSandbox(); everything else is refused with EPERM.
+/// What a process may still do after enterSandbox(); everything else is refused, with EPERM or
+/// (files) EACCES.
 struct SandboxPolicy {
     std::vector<std::string> readable;  ///< Files and folders (with all below); missing: skipped.
-    std::vector<std::string> writable;  ///< Folders that may be read and written.
-    bool mayExecute = false;            ///< execve and new processes.
+    std::vector<std::string> writable;  ///< The same, but to read, write and send ioctls to.
+    bool mayExecute = false;            ///< execve of what is readable, and new processes.
     bool mayUseThreads = true;
     std::uint64_t maxAddressSpaceBytes = 0;  ///< 0: no limit.
-    std::uint64_t maxFileBytes = 0;          ///< Of any file it writes, memfds included; 0: none.
-    std::uint64_t maxCpuSeconds = 0;         ///< 0: no limit.
+    std::uint64_t maxFileBytes = 0;   ///< Of any file it writes, memfds included; 0: no limit.
+    std::uint64_t maxCpuSeconds = 0;  ///< 0: no limit.
 };
 
 /// Which parts of a sandbox this kernel grants.
@@ -29,10 +30,13 @@ struct SandboxFeatures {
 SandboxFeatures sandboxFeatures();
 
 /// Gives up, for this process and its children, all that `policy` does not name: rlimits,
-/// Landlock (where the kernel has it), then seccomp in ERRNO mode (network sockets, ptrace, mount,
-/// module and namespace calls, and execve where it is not allowed). Cannot be undone.
+/// capabilities, Landlock (where the kernel has it), then seccomp in ERRNO mode (network sockets,
+/// ptrace, mount, module and namespace calls, and execve where it is not allowed). Cannot be
+/// undone; a second call can only take more away. Mappings that are writable and executable stay
+/// allowed, because Mesa's JIT needs them.
 ///
-/// Errors: kIo naming the step; kUnsupported where the kernel has no seccomp.
+/// Thread: call it while the process has one thread; Landlock does not reach those that run
+/// already. Errors: kIo naming the step; kUnsupported where the kernel has no seccomp.
 Result<void> enterSandbox(const SandboxPolicy& policy);
 
 }  // namespace volcast::base
