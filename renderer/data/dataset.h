@@ -39,6 +39,8 @@ struct DatasetSummary {
     bool convex = false;
     std::uint64_t cellsWithoutVolume = 0;
     std::uint64_t cellsInverted = 0;
+    std::uint64_t cellsDoubled = 0;
+    std::uint64_t facesNotManifold = 0;
     glm::ivec3 voxels{0};
     glm::dvec3 spacing{0.0};
     VoxelType voxelType = VoxelType::kF32;

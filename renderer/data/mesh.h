@@ -18,8 +18,9 @@ struct BoundaryFace {
 
 /// A tetrahedral mesh, ready to draw: positively oriented, adjacency known, in Morton order.
 ///
-/// Cell (a, b, c, d) is positively oriented: dot(cross(b - a, c - a), d - a) > 0. Cells without
-/// volume are left out and counted. Vertex ids are the Morton order; every vertex is used.
+/// Cell (a, b, c, d) is positively oriented: dot(cross(b - a, c - a), d - a) > 0 in the double
+/// coordinates it was made of, with a < b < min(c, d). Cells without volume are left out and
+/// counted. Vertex ids are the Morton order; every vertex is used.
 struct Mesh {
     glm::dvec3 origin{0.0};              ///< World = origin + vertex: keeps far-away meshes exact.
     base::Array<glm::vec3> vertices;     ///< Relative to `origin`, world units.
@@ -33,6 +34,8 @@ struct Mesh {
     bool convex = false;                   ///< Every line meets the mesh in at most one piece.
     std::uint64_t cellsWithoutVolume = 0;  ///< Left out on import.
     std::uint64_t cellsInverted = 0;       ///< Turned round on import.
+    std::uint64_t cellsDoubled = 0;        ///< Had the vertices of another cell; left out.
+    std::uint64_t facesNotManifold = 0;    ///< Shared by other than two cells of opposite sides.
 };
 
 }  // namespace volcast::data

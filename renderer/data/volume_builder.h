@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "renderer/base/result.h"
+#include "renderer/data/volume.h"
+
+namespace volcast::data {
+
+/// One scalar a voxel, as a file holds it.
+struct ChannelInput {
+    std::string name;  ///< Unique; bytes that are no UTF-8 become '?'.
+    std::string unit;
+    std::vector<std::byte> voxels;  ///< Native byte order, x fastest, no padding.
+};
+
+/// Voxels as a file holds them; members as in Volume.
+struct VolumeInput {
+    glm::ivec3 size{1};
+    glm::dvec3 spacing{1.0};
+    glm::dvec3 origin{0.0};
+    glm::dmat3 direction{1.0};  ///< Made exactly orthonormal; may be off by 1e-3.
+    VoxelType type = VoxelType::kF32;
+    std::vector<ChannelInput> channels;
+};
+
+inline constexpr int kMaxVolumeSide = 1 << 15;
+inline constexpr std::size_t kMaxVolumeBytes = std::size_t{1} << 40;  ///< Of one channel.
+inline constexpr std::size_t kMaxChannels = 256;
+
+/// Checks voxels and finds their ranges and bricks.
+///
+/// Errors: kInvalidArgument (a size below 1, spacing that is not > 0, a number that is not finite,
+/// a wrong number of bytes, no channel, a doubled or empty channel name), kUnsupported (axes that
+/// are not perpendicular), kLimitExceeded (size or channels).
+Result<Volume> buildVolume(VolumeInput input);
+
+}  // namespace volcast::data
