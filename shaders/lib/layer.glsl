@@ -1,0 +1,29 @@
+// The layer's block, and the ray through a pixel.
+#include "contract/ray.glsl"
+#include "shared/bindings.glsl"
+#include "shared/layer_block.glsl"
+
+layout(std140, binding = kLayerBinding) uniform LayerUniforms {
+    LayerBlock layer;
+};
+
+// Distance to the nearest opaque surface of this pixel, from the ray's origin; huge where none is.
+layout(binding = kOpaqueDistanceUnit) uniform sampler2D opaqueDistances;
+
+// Position in the picture: x to the right, y upwards, both in [-1, 1]. Row 0 is the top.
+vec2 pictureFrom(vec2 pixel) {
+    vec2 share = pixel * layer.viewport.zw;
+    return vec2(2.0 * share.x - 1.0, 1.0 - 2.0 * share.y);
+}
+
+// The ray through `pixel` in window coordinates (pixel centres at .5).
+Ray rayThrough(vec2 pixel) {
+    vec2 at = pictureFrom(pixel);
+    return Ray(layer.rayStart.xyz + at.x * layer.rayStartRight.xyz + at.y * layer.rayStartUp.xyz,
+               normalize(layer.rayDirection.xyz + at.x * layer.rayDirectionRight.xyz +
+                         at.y * layer.rayDirectionUp.xyz));
+}
+
+float opaqueDistance(vec2 pixel) {
+    return texelFetch(opaqueDistances, ivec2(pixel), 0).r;
+}

@@ -1,0 +1,30 @@
+// Emission and absorption, front to back: each piece adds its light through what lies before it.
+// Source: N. Max, Optical Models for Direct Volume Rendering, IEEE TVCG 1(2), 1995, section 4.
+// Uses: classify, segment.
+struct RayState {
+    vec3 colour;   // premultiplied, linear
+    float opacity; // of all pieces so far
+};
+
+// A ray this opaque is finished: the rest changes no channel by more than a 16-bit step.
+const float kFinishedOpacity = 1.0 - 1.0e-6;
+
+RayState beginRay(Ray ray) {
+    return RayState(vec3(0.0), 0.0);
+}
+
+bool stepRay(inout RayState state, Segment piece) {
+    vec4 share = integrateSegment(piece);
+    float through = 1.0 - state.opacity;
+    state.colour += through * share.rgb;
+    state.opacity += through * share.a;
+    return state.opacity > kFinishedOpacity;
+}
+
+bool skipsBetween(RayState state, float lo, float hi) {
+    return transparentBetween(lo, hi);
+}
+
+vec4 endRay(RayState state) {
+    return vec4(state.colour, state.opacity);
+}

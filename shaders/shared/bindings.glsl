@@ -1,0 +1,13 @@
+// Binding numbers, read by C++ (inside a namespace) and by GLSL.
+
+// Uniform blocks
+const int kLayerBinding = 0;
+const int kMapBinding = 1;
+const int kMeshBinding = 2;
+
+// Texture units
+const int kMapUnit = 0;
+const int kOpaqueDistanceUnit = 1;
+const int kVoxelUnit = 2;
+const int kBrickUnit = 3;
+const int kFirstMeshUnit = 4;

@@ -1,0 +1,23 @@
+// What a pass needs to know of the camera and of one layer; read by C++ (after `using glm::mat4;
+// using glm::vec4;`) and by GLSL as an std140 block.
+//
+// "Data space" is the world translated by the dataset's f64 origin: world = origin + data. A ray
+// starts on the plane of depth `planeDepth`, in front of all data of the scene (on the eye's own
+// plane where the eye is inside), so that distances along it stay exact far away from the eye. Its
+// start is the same point of the world for every layer. With u in [-1, 1] to the right and v in
+// [-1, 1] upwards in the picture:
+//   start     = rayStart + u rayStartRight + v rayStartUp            (data space)
+//   direction = rayDirection + u rayDirectionRight + v rayDirectionUp (before normalisation)
+struct LayerBlock {
+    vec4 rayStart;           // w: planeDepth, the depth of all starts, world units, >= 0
+    vec4 rayStartRight;
+    vec4 rayStartUp;
+    vec4 rayDirection;       // the view direction, of length 1; w: 1 perspective, 0 orthographic
+    vec4 rayDirectionRight;  // 0 in an orthographic camera
+    vec4 rayDirectionUp;
+    vec4 viewport;           // width, height, 1 / width, 1 / height; pixels
+    mat4 clipFromData;       // for triangles: reversed depth, 1 at the near plane, 0 far away
+    mat4 gridFromData;       // voxels: grid point (i, j, k) has grid coordinates (i, j, k)
+    vec4 grid;               // voxels: number of grid points along x, y, z; w: step, world units
+    vec4 surfaceColour;      // surface: linear RGB
+};
