@@ -1,0 +1,177 @@
+#include "renderer/worker/loop.h"
+
+#include <chrono>
+#include <ctime>
+#include <sys/resource.h>
+#include <utility>
+
+#include <spdlog/spdlog.h>
+
+#include "renderer/data/packed_dataset.h"
+#include "renderer/scene/validate.h"
+#include "renderer/worker/frame_message.h"
+#include "renderer/worker/scene_message.h"
+
+namespace volcast::worker {
+
+namespace {
+
+namespace wire = volcast::internal::v1;
+
+using Clock = std::chrono::steady_clock;
+
+double millisecondsSince(Clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+/// CPU time of all threads of this process.
+double cpuMs() {
+    timespec now{};
+    ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    return static_cast<double>(now.tv_sec) * 1e3 + static_cast<double>(now.tv_nsec) * 1e-6;
+}
+
+/// The most memory this process has held so far.
+double peakMb() {
+    rusage usage{};
+    ::getrusage(RUSAGE_SELF, &usage);
+    return static_cast<double>(usage.ru_maxrss) / 1024.0;
+}
+
+void put(const scene::Counters& work, wire::Counters* message) {
+    message->set_buffer_uploads(work.bufferUploads);
+    message->set_texture_uploads(work.textureUploads);
+    message->set_uploaded_bytes(work.uploadedBytes);
+    message->set_programs_built(work.programsBuilt);
+    message->set_draw_calls(work.drawCalls);
+    message->set_frames_drawn(work.framesDrawn);
+}
+
+Error oneDescriptorExpected(const std::string& message, std::size_t count) {
+    return fail(ErrorCode::kInvalidArgument,
+                message + " came with " + std::to_string(count) + " descriptors instead of 1");
+}
+
+}  // namespace
+
+ExitCode Loop::run() {
+    for (;;) {
+        wire::ToWorker message;
+        auto descriptors = channel_.receive(message, std::chrono::milliseconds{-1});
+        if (!descriptors) {
+            if (descriptors.error().code == ErrorCode::kDeviceLost) return kExitDone;
+            spdlog::error("{}", descriptors.error().message);
+            return kExitProtocol;
+        }
+        if (Result<void> done = handle(message, *std::move(*descriptors)); !done) {
+            if (deviceLost_) spdlog::error("{}", done.error().message);
+            if (deviceLost_) return kExitDeviceLost;
+            if (done.error().code == ErrorCode::kDeviceLost) return kExitDone;
+            spdlog::error("{}", done.error().message);
+            return kExitProtocol;
+        }
+    }
+}
+
+Result<void> Loop::handle(const wire::ToWorker& message, Descriptors descriptors) {
+    switch (message.body_case()) {
+        case wire::ToWorker::kAddDataset: {
+            return addDataset(message.add_dataset().id(), descriptors);
+        }
+        case wire::ToWorker::kRemoveDataset: {
+            renderer_.removeDataset(message.remove_dataset().id());
+            return {};
+        }
+        case wire::ToWorker::kRender: return render(message.render(), descriptors);
+        case wire::ToWorker::kDropView: {
+            renderer_.dropView(message.drop_view().view());
+            return {};
+        }
+        case wire::ToWorker::kPing: {
+            wire::FromWorker answer;
+            answer.mutable_pong()->set_token(message.ping().token());
+            return reply(answer);
+        }
+        case wire::ToWorker::BODY_NOT_SET: break;
+    }
+    return fail(ErrorCode::kInvalidArgument, "the server sent a message of an unknown kind");
+}
+
+Result<void> Loop::addDataset(const std::string& id, const Descriptors& descriptors) {
+    if (descriptors.size() != 1) return oneDescriptorExpected("a dataset", descriptors.size());
+    const auto start = Clock::now();
+    wire::FromWorker answer;
+    if (auto dataset = data::unpack(descriptors.front()); dataset) {
+        renderer_.addDataset(id, *std::move(dataset));
+        answer.mutable_dataset_added()->set_id(id);
+        answer.mutable_dataset_added()->set_ms(millisecondsSince(start));
+    } else {
+        *answer.mutable_failed() = toMessage(dataset.error());
+        answer.mutable_failed()->set_dataset(id);
+    }
+    return reply(answer);
+}
+
+Result<wire::Rendered> Loop::draw(const wire::Render& request, const Descriptors& descriptors) {
+    const scene::PictureSize size{static_cast<int>(request.width()),
+                                  static_cast<int>(request.height())};
+    if (Result<void> valid = scene::validate(size); !valid) return std::move(valid).error();
+    if (request.new_slot()) {
+        if (auto done = slots_.replace(request.slot(), descriptors.front()); !done) {
+            return std::move(done).error();
+        }
+    }
+    auto target = slots_.target(request.slot(), size, request.want_float());
+    if (!target) return std::move(target).error();
+    auto scene = sceneFrom(request.scene());
+    if (!scene) return std::move(scene).error();
+
+    const double cpuBefore = cpuMs();
+    auto info = renderer_.render(request.view(), *scene, size, *target);
+    if (!info) return std::move(info).error();
+    wire::Rendered rendered;
+    rendered.set_request(request.request());
+    rendered.set_view(request.view());
+    rendered.set_slot(request.slot());
+    rendered.set_width(request.width());
+    rendered.set_height(request.height());
+    put(info->plan, &rendered);
+    rendered.set_upload_ms(info->uploadMs);
+    rendered.set_draw_ms(info->drawMs);
+    rendered.set_readback_ms(info->readbackMs);
+    rendered.set_cpu_ms(cpuMs() - cpuBefore);
+    rendered.set_peak_mb(peakMb());
+    rendered.set_drawn(info->drawn);
+    put(info->work, rendered.mutable_work());
+    return rendered;
+}
+
+Result<void> Loop::render(const wire::Render& request, const Descriptors& descriptors) {
+    const std::size_t expected = request.new_slot() ? 1 : 0;
+    if (descriptors.size() != expected) {
+        return oneDescriptorExpected("a new frame slot", descriptors.size());
+    }
+    wire::FromWorker answer;
+    auto rendered = draw(request, descriptors);
+    const bool reset = device_.resetStatus() != gpu::ResetStatus::kNone;
+    if (reset || (!rendered && rendered.error().code == ErrorCode::kDeviceLost)) {
+        deviceLost_ = true;
+        device_.abandon();
+        return fail(ErrorCode::kDeviceLost,
+                    reset ? "the GPU was reset while drawing" : rendered.error().message);
+    }
+    if (rendered) {
+        *answer.mutable_rendered() = *std::move(rendered);
+    } else {
+        *answer.mutable_failed() = toMessage(rendered.error());
+        answer.mutable_failed()->set_request(request.request());
+        answer.mutable_failed()->set_view(request.view());
+    }
+    return reply(answer);
+}
+
+Result<void> Loop::reply(const wire::FromWorker& message) {
+    return channel_.send(message);
+}
+
+}  // namespace volcast::worker

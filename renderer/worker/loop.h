@@ -1,0 +1,44 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "renderer/gpu/device.h"
+#include "renderer/scene/render.h"
+#include "renderer/worker/channel.h"
+#include "renderer/worker/exit_codes.h"
+#include "renderer/worker/slots.h"
+#include "volcast/internal/v1/worker.pb.h"
+
+namespace volcast::worker {
+
+/// Does what the server asks for over the channel, in order, one thing at a time: datasets come,
+/// pictures go. All on the device's thread.
+class Loop {
+public:
+    Loop(Channel& channel, gpu::Device& device, scene::Renderer& renderer) noexcept
+        : channel_{channel}, device_{device}, renderer_{renderer} {}
+
+    /// Until the server closes the channel or the device is lost.
+    ExitCode run();
+
+private:
+    using Descriptors = std::vector<base::FileDescriptor>;
+
+    /// Errors: kDeviceLost (server or device gone), kInvalidArgument (unknown message).
+    Result<void> handle(const internal::v1::ToWorker& message, Descriptors descriptors);
+    Result<void> addDataset(const std::string& id, const Descriptors& descriptors);
+    Result<void> render(const internal::v1::Render& request, const Descriptors& descriptors);
+    /// Errors are the request's own, but for kDeviceLost.
+    Result<internal::v1::Rendered> draw(const internal::v1::Render& request,
+                                        const Descriptors& descriptors);
+    Result<void> reply(const internal::v1::FromWorker& message);
+
+    Channel& channel_;
+    gpu::Device& device_;
+    scene::Renderer& renderer_;
+    Slots slots_;
+    bool deviceLost_ = false;
+};
+
+}  // namespace volcast::worker

@@ -1,0 +1,30 @@
+#include "renderer/worker/options.h"
+
+#include <string_view>
+
+namespace volcast::worker {
+
+Result<Options> parseOptions(std::span<char* const> arguments) {
+    Options options;
+    for (std::size_t i = 1; i < arguments.size(); ++i) {
+        const std::string_view name = arguments[i];
+        if (name == "--probe") {
+            options.probe = true;
+            continue;
+        }
+        std::string* value = name == "--gpu"          ? &options.gpu
+                             : name == "--cache-dir"  ? &options.cacheFolder
+                             : name == "--shader-dir" ? &options.shaderFolder
+                                                      : nullptr;
+        if (value == nullptr) {
+            return fail(ErrorCode::kInvalidArgument, std::string{name} + ": unknown argument");
+        }
+        if (++i == arguments.size()) {
+            return fail(ErrorCode::kInvalidArgument, std::string{name} + ": its value is missing");
+        }
+        *value = arguments[i];
+    }
+    return options;
+}
+
+}  // namespace volcast::worker
