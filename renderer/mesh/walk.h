@@ -1,0 +1,108 @@
+#pragma once
+
+// The contract between renderer/scene, which calls, and renderer/mesh, which implements.
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "renderer/base/result.h"
+#include "renderer/data/mesh.h"
+#include "renderer/gpu/target.h"
+#include "renderer/plan/plan.h"
+#include "renderer/scene/camera.h"
+#include "renderer/scene/scene.h"
+#include "renderer/shading/program_cache.h"
+
+namespace volcast::mesh {
+
+/// A mesh's vertices, cells, adjacency and boundary on the GPU; shared by all views.
+class MeshGpu {
+public:
+    /// Errors: kLimitExceeded (more texels than the device addresses), kOutOfGpuMemory.
+    static Result<std::unique_ptr<MeshGpu>> upload(gpu::Device& device, const data::Mesh& mesh);
+    virtual ~MeshGpu() = default;
+    MeshGpu(const MeshGpu&) = delete;
+    MeshGpu& operator=(const MeshGpu&) = delete;
+    MeshGpu(MeshGpu&&) = delete;
+    MeshGpu& operator=(MeshGpu&&) = delete;
+
+protected:
+    MeshGpu() = default;
+};
+
+/// One time step of one field on the GPU; shared by all views.
+class FieldGpu {
+public:
+    /// `step` is in [0, field.steps.size()).
+    ///
+    /// Errors: as MeshGpu::upload.
+    static Result<std::unique_ptr<FieldGpu>> upload(gpu::Device& device, const data::Mesh& mesh,
+                                                    const data::Field& field, int step);
+    virtual ~FieldGpu() = default;
+    FieldGpu(const FieldGpu&) = delete;
+    FieldGpu& operator=(const FieldGpu&) = delete;
+    FieldGpu(FieldGpu&&) = delete;
+    FieldGpu& operator=(FieldGpu&&) = delete;
+
+protected:
+    FieldGpu() = default;
+};
+
+/// What one view keeps for one layer between frames: entry lists, vertices in camera space.
+/// Made empty; drawWalk() fills and resizes it.
+class WalkState {
+public:
+    static std::unique_ptr<WalkState> create();
+    virtual ~WalkState() = default;
+    WalkState(const WalkState&) = delete;
+    WalkState& operator=(const WalkState&) = delete;
+    WalkState(WalkState&&) = delete;
+    WalkState& operator=(WalkState&&) = delete;
+
+protected:
+    WalkState() = default;
+};
+
+/// One layer's draw. All pointers are borrowed for the call.
+///
+/// Bound by the caller: the layer block (kLayerBinding, see shaders/shared/layer_block.glsl), the
+/// transfer function (kMapBinding and kMapUnit), the opaque distances (kOpaqueDistanceUnit). Units
+/// from kFirstMeshUnit on and kMeshBinding are the mesh's own.
+struct DrawInputs {
+    gpu::Device* device = nullptr;
+    shading::ProgramCache* programs = nullptr;
+    const data::Mesh* mesh = nullptr;
+    const MeshGpu* meshGpu = nullptr;
+    const FieldGpu* field = nullptr;  ///< Null where the layer needs no values.
+    data::Association association = data::Association::kVertex;  ///< Of `field`.
+    const scene::Layer* layer = nullptr;
+    const plan::LayerPlan* plan = nullptr;
+    const scene::Camera* camera = nullptr;
+    double planeDepth = 0.0;  ///< LayerBlock::rayStart.w in double.
+    glm::ivec2 size{0};
+    /// Equal numbers: camera, size and planeDepth are as they were when this view last drew.
+    std::uint64_t cameraVersion = 0;
+    /// To be put into every recipe whose `classify` is classify/transfer_function.glsl.
+    std::vector<shading::Constant> mapConstants;
+    /// Walk: colour 0, 32F, premultiplied, blended "over" (PassState{.blend = Blend::kOver}).
+    /// Surface: colour 0 as before (opaque: alpha 1), colour 1 R32F the distance along the ray
+    /// from its origin, and a depth attachment (DepthTest::kNearest; clip positions by
+    /// LayerBlock::clipFromData), so that several surfaces hide one another.
+    const gpu::Target* target = nullptr;
+};
+
+/// Draws a layer of a ray model (mip, volume) by walking from cell to cell. Rays end at the opaque
+/// distance of their pixel.
+///
+/// Errors: kShaderBuild, kOutOfGpuMemory, kLimitExceeded.
+Result<void> drawWalk(const DrawInputs& inputs, WalkState& state);
+
+/// Draws a layer of the model surface: boundary faces as triangles.
+///
+/// Errors: kShaderBuild.
+Result<void> drawSurface(const DrawInputs& inputs);
+
+}  // namespace volcast::mesh
