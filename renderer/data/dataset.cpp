@@ -1,0 +1,147 @@
+#include "renderer/data/dataset.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <span>
+
+namespace volcast::data {
+
+namespace {
+
+constexpr std::size_t kBins = 256;
+constexpr std::size_t kMaxSamples = std::size_t{1} << 14;
+
+/// Counts values in equal bins over a range.
+class Histogram {
+public:
+    explicit Histogram(Range range) : range_{range}, counts_(kBins, 0) {}
+
+    void add(double value) {
+        const double width = static_cast<double>(range_.max) - range_.min;
+        const double t = width > 0.0 ? (value - range_.min) / width : 0.0;
+        const double bin = std::clamp(std::floor(t * kBins), 0.0, static_cast<double>(kBins - 1));
+        ++counts_[static_cast<std::size_t>(bin)];
+    }
+    [[nodiscard]] std::vector<std::uint32_t> take() { return std::move(counts_); }
+
+private:
+    Range range_;
+    std::vector<std::uint32_t> counts_;
+};
+
+/// Calls `visit(i)` for at most kMaxSamples evenly spread indices below `count`.
+template <class Visit>
+void visitSamples(std::size_t count, const Visit& visit) {
+    const std::size_t samples = std::min(count, kMaxSamples);
+    for (std::size_t s = 0; s < samples; ++s) {
+        visit(static_cast<std::size_t>(static_cast<double>(s) * static_cast<double>(count) /
+                                       static_cast<double>(samples)));
+    }
+}
+
+FieldSummary summarizeField(const Field& field) {
+    Histogram histogram{field.range};
+    const std::size_t perStep = field.steps.empty() ? 0 : field.steps.front().size();
+    visitSamples(perStep * field.steps.size(),
+                 [&](std::size_t i) { histogram.add(field.steps[i / perStep][i % perStep]); });
+    return {.name = field.name,
+            .unit = field.unit,
+            .association = field.association,
+            .range = field.range,
+            .steps = static_cast<int>(field.steps.size()),
+            .histogram = histogram.take()};
+}
+
+template <class T>
+double valueAt(std::span<const std::byte> voxels, std::size_t i) {
+    T value{};
+    std::memcpy(&value, voxels.data() + i * sizeof(T), sizeof(T));
+    return static_cast<double>(value);
+}
+
+double voxelAt(std::span<const std::byte> voxels, VoxelType type, std::size_t i) {
+    switch (type) {
+        case VoxelType::kU8: return valueAt<std::uint8_t>(voxels, i);
+        case VoxelType::kU16: return valueAt<std::uint16_t>(voxels, i);
+        case VoxelType::kI16: return valueAt<std::int16_t>(voxels, i);
+        case VoxelType::kF32: return valueAt<float>(voxels, i);
+    }
+    return 0.0;
+}
+
+FieldSummary summarizeChannel(const Channel& channel, VoxelType type) {
+    Histogram histogram{channel.range};
+    visitSamples(channel.voxels.size() / voxelBytes(type),
+                 [&](std::size_t i) { histogram.add(voxelAt(channel.voxels.span(), type, i)); });
+    return {.name = channel.name,
+            .unit = channel.unit,
+            .association = Association::kVertex,
+            .range = channel.range,
+            .steps = 1,
+            .histogram = histogram.take()};
+}
+
+void grow(Box& box, const glm::dvec3& point) {
+    box.min = glm::min(box.min, point);
+    box.max = glm::max(box.max, point);
+}
+
+Box emptyBox() {
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    return {.min = glm::dvec3{kInfinity}, .max = glm::dvec3{-kInfinity}};
+}
+
+DatasetSummary summarizeMesh(const Mesh& mesh) {
+    DatasetSummary summary;
+    summary.isMesh = true;
+    summary.bounds = emptyBox();
+    for (const glm::vec3& vertex : mesh.vertices) {
+        grow(summary.bounds, mesh.origin + glm::dvec3{vertex});
+    }
+    summary.cells = mesh.cells.size();
+    summary.vertices = mesh.vertices.size();
+    summary.boundaryFaces = mesh.boundaryFaces.size();
+    summary.convex = mesh.convex;
+    summary.cellsWithoutVolume = mesh.cellsWithoutVolume;
+    summary.cellsInverted = mesh.cellsInverted;
+    summary.cellsDoubled = mesh.cellsDoubled;
+    summary.facesNotManifold = mesh.facesNotManifold;
+    summary.bytes = mesh.vertices.bytes().size() + mesh.cells.bytes().size() +
+                    mesh.neighbours.bytes().size() + mesh.boundaryFaces.bytes().size() +
+                    mesh.boundaryNeighbours.bytes().size();
+    for (const Field& field : mesh.fields) {
+        summary.fields.push_back(summarizeField(field));
+        for (const auto& step : field.steps) summary.bytes += step.bytes().size();
+    }
+    return summary;
+}
+
+DatasetSummary summarizeVolume(const Volume& volume) {
+    DatasetSummary summary;
+    summary.isMesh = false;
+    summary.bounds = emptyBox();
+    const glm::dvec3 extent = volume.spacing * glm::dvec3{volume.size - 1};
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::dvec3 side{corner & 1, (corner >> 1) & 1, (corner >> 2) & 1};
+        grow(summary.bounds, volume.origin + volume.direction * (extent * side));
+    }
+    summary.voxels = volume.size;
+    summary.spacing = volume.spacing;
+    summary.voxelType = volume.type;
+    for (const Channel& channel : volume.channels) {
+        summary.fields.push_back(summarizeChannel(channel, volume.type));
+        summary.bytes += channel.voxels.size() + channel.bricks.bytes().size();
+    }
+    return summary;
+}
+
+}  // namespace
+
+DatasetSummary summarize(const Dataset& dataset) {
+    if (const Mesh* mesh = std::get_if<Mesh>(&dataset)) return summarizeMesh(*mesh);
+    return summarizeVolume(std::get<Volume>(dataset));
+}
+
+}  // namespace volcast::data

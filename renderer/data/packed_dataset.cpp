@@ -1,0 +1,301 @@
+#include "renderer/data/packed_dataset.h"
+
+#include <cstring>
+#include <span>
+
+#include "renderer/base/memfd.h"
+#include "renderer/data/packed_checks.h"
+#include "renderer/data/packed_format.h"
+
+namespace volcast::data {
+
+namespace {
+
+std::size_t aligned(std::size_t offset) {
+    return (offset + packed::kAlignment - 1) / packed::kAlignment * packed::kAlignment;
+}
+
+/// Collects what is to be written; the bytes must outlive write().
+class Writer {
+public:
+    template <class T>
+    void add(packed::Tag tag, std::span<const T> values) {
+        entries_.push_back(
+            {.tag = tag, .elementBytes = sizeof(T), .offset = 0, .count = values.size()});
+        contents_.push_back(std::as_bytes(values));
+    }
+    template <class T>
+    void addOne(packed::Tag tag, const T& value) {
+        add(tag, std::span<const T>{&value, 1});
+    }
+    void addText(const std::string& text) {
+        add(packed::Tag::kText, std::span<const char>{text.data(), text.size()});
+    }
+
+    Result<base::FileDescriptor> write(packed::Kind kind) {
+        std::size_t end = sizeof(packed::Header) + entries_.size() * sizeof(packed::Entry);
+        for (std::size_t i = 0; i < entries_.size(); ++i) {
+            entries_[i].offset = aligned(end);
+            end = entries_[i].offset + contents_[i].size();
+        }
+        auto fd = base::createMemfd("volcast-dataset", end);
+        if (!fd) return fd.error();
+        auto mapping = base::map(*fd, true);
+        if (!mapping) return mapping.error();
+        const packed::Header header{.kind = kind, .sections = entries_.size(), .bytes = end};
+        std::memcpy(mapping->bytes.data(), &header, sizeof(header));
+        std::memcpy(mapping->bytes.data() + sizeof(header), entries_.data(),
+                    entries_.size() * sizeof(packed::Entry));
+        for (std::size_t i = 0; i < entries_.size(); ++i) {
+            if (contents_[i].empty()) continue;
+            std::memcpy(mapping->bytes.data() + entries_[i].offset, contents_[i].data(),
+                        contents_[i].size());
+        }
+        *mapping = {};  // A writable mapping would forbid the seal.
+        if (const auto sealed = base::sealReadOnly(*fd); !sealed) return sealed.error();
+        return fd;
+    }
+
+private:
+    std::vector<packed::Entry> entries_;
+    std::vector<std::span<const std::byte>> contents_;
+};
+
+Result<base::FileDescriptor> packMesh(const Mesh& mesh) {
+    Writer writer;
+    const packed::MeshHeader header{.origin = mesh.origin,
+                                    .cellsWithoutVolume = mesh.cellsWithoutVolume,
+                                    .cellsInverted = mesh.cellsInverted,
+                                    .cellsDoubled = mesh.cellsDoubled,
+                                    .facesNotManifold = mesh.facesNotManifold,
+                                    .fields = mesh.fields.size(),
+                                    .convex = mesh.convex ? 1U : 0U};
+    writer.addOne(packed::Tag::kMesh, header);
+    writer.add(packed::Tag::kVertices, mesh.vertices.span());
+    writer.add(packed::Tag::kCells, mesh.cells.span());
+    writer.add(packed::Tag::kNeighbours, mesh.neighbours.span());
+    writer.add(packed::Tag::kBoundaryFaces, mesh.boundaryFaces.span());
+    writer.add(packed::Tag::kBoundaryNeighbours, mesh.boundaryNeighbours.span());
+    std::vector<packed::FieldHeader> headers;
+    headers.reserve(mesh.fields.size());  // The writer keeps views of the elements.
+    for (const Field& field : mesh.fields) {
+        headers.push_back({.range = field.range,
+                           .association = static_cast<std::uint32_t>(field.association),
+                           .steps = field.steps.size()});
+        writer.addOne(packed::Tag::kField, headers.back());
+        writer.addText(field.name);
+        writer.addText(field.unit);
+        writer.add(packed::Tag::kTimes, std::span<const double>{field.times});
+        for (const auto& step : field.steps) writer.add(packed::Tag::kValues, step.span());
+    }
+    return writer.write(packed::Kind::kMesh);
+}
+
+Result<base::FileDescriptor> packVolume(const Volume& volume) {
+    Writer writer;
+    const packed::VolumeHeader header{.spacing = volume.spacing,
+                                      .origin = volume.origin,
+                                      .direction = volume.direction,
+                                      .size = volume.size,
+                                      .type = static_cast<std::uint32_t>(volume.type),
+                                      .channels = volume.channels.size()};
+    writer.addOne(packed::Tag::kVolume, header);
+    for (const Channel& channel : volume.channels) {
+        writer.addOne(packed::Tag::kChannel, channel.range);
+        writer.addText(channel.name);
+        writer.addText(channel.unit);
+        writer.add(packed::Tag::kVoxels, channel.voxels.span());
+        writer.add(packed::Tag::kBricks, channel.bricks.span());
+    }
+    return writer.write(packed::Kind::kVolume);
+}
+
+Error damaged(const std::string& what) {
+    return fail(ErrorCode::kInvalidArgument, "packed dataset: " + what);
+}
+
+/// Hands out the sections of a mapped dataset in the order they were written in.
+class Reader {
+public:
+    explicit Reader(base::Mapping mapping) : mapping_{std::move(mapping)} {}
+
+    /// Checks the header and the table; every section lies inside the mapping afterwards.
+    Result<packed::Kind> open() {
+        packed::Header header;
+        if (mapping_.bytes.size() < sizeof(header)) return damaged("shorter than its header");
+        std::memcpy(&header, mapping_.bytes.data(), sizeof(header));
+        if (header.magic != packed::kMagic) return damaged("wrong magic or version");
+        if (header.bytes != mapping_.bytes.size()) return damaged("size differs from the header's");
+        const std::size_t room = (mapping_.bytes.size() - sizeof(header)) / sizeof(packed::Entry);
+        if (header.sections > room) return damaged("table of sections is cut off");
+        entries_.resize(header.sections);
+        if (!entries_.empty()) {
+            std::memcpy(entries_.data(), mapping_.bytes.data() + sizeof(header),
+                        entries_.size() * sizeof(packed::Entry));
+        }
+        for (const packed::Entry& entry : entries_) {
+            const std::size_t size = mapping_.bytes.size();
+            if (entry.elementBytes == 0 || entry.offset > size ||
+                entry.offset % packed::kAlignment != 0 ||
+                entry.count > (size - entry.offset) / entry.elementBytes) {
+                return damaged("a section lies outside the data");
+            }
+        }
+        return header.kind;
+    }
+
+    template <class T>
+    Result<base::Array<T>> take(packed::Tag tag) {
+        if (next_ == entries_.size()) return damaged("a section is missing");
+        const packed::Entry& entry = entries_[next_++];
+        if (entry.tag != tag || entry.elementBytes != sizeof(T)) {
+            return damaged("section " + std::to_string(next_ - 1) + " is of another kind");
+        }
+        // Offsets are multiples of kAlignment and the mapping starts on a page.
+        const auto* first = reinterpret_cast<const T*>(mapping_.bytes.data() + entry.offset);
+        return base::Array<T>{mapping_.owner, {first, entry.count}};
+    }
+
+    template <class T>
+    Result<T> takeOne(packed::Tag tag) {
+        const auto array = take<T>(tag);
+        if (!array) return array.error();
+        if (array->size() != 1) return damaged("a header is missing or doubled");
+        return (*array)[0];
+    }
+
+    Result<std::string> takeText() {
+        const auto text = take<char>(packed::Tag::kText);
+        if (!text) return text.error();
+        return std::string{text->begin(), text->end()};
+    }
+
+    [[nodiscard]] Result<void> finish() const {
+        if (next_ != entries_.size()) return damaged("has sections nobody asked for");
+        return {};
+    }
+
+private:
+    base::Mapping mapping_;
+    std::vector<packed::Entry> entries_;
+    std::size_t next_ = 0;
+};
+
+/// Stores the value of `source` in `target`; false where it is an error, kept in `error`.
+template <class T>
+bool store(Result<T> source, T& target, Error& error) {
+    if (!source) {
+        error = source.error();
+        return false;
+    }
+    target = std::move(*source);
+    return true;
+}
+
+Result<Field> readField(Reader& reader) {
+    Field field;
+    Error error;
+    packed::FieldHeader header;
+    base::Array<double> times;
+    if (!store(reader.takeOne<packed::FieldHeader>(packed::Tag::kField), header, error) ||
+        !store(reader.takeText(), field.name, error) ||
+        !store(reader.takeText(), field.unit, error) ||
+        !store(reader.take<double>(packed::Tag::kTimes), times, error)) {
+        return error;
+    }
+    if (header.association > static_cast<std::uint32_t>(Association::kCellVertex)) {
+        return damaged("field '" + field.name + "' sits nowhere");
+    }
+    field.association = static_cast<Association>(header.association);
+    field.range = header.range;
+    field.times.assign(times.begin(), times.end());
+    for (std::uint64_t step = 0; step < header.steps; ++step) {
+        auto values = reader.take<float>(packed::Tag::kValues);
+        if (!values) return values.error();
+        field.steps.push_back(std::move(*values));
+    }
+    return field;
+}
+
+Result<Dataset> readMesh(Reader& reader) {
+    Mesh mesh;
+    Error error;
+    packed::MeshHeader header;
+    if (!store(reader.takeOne<packed::MeshHeader>(packed::Tag::kMesh), header, error) ||
+        !store(reader.take<glm::vec3>(packed::Tag::kVertices), mesh.vertices, error) ||
+        !store(reader.take<glm::ivec4>(packed::Tag::kCells), mesh.cells, error) ||
+        !store(reader.take<glm::ivec4>(packed::Tag::kNeighbours), mesh.neighbours, error) ||
+        !store(reader.take<BoundaryFace>(packed::Tag::kBoundaryFaces), mesh.boundaryFaces, error) ||
+        !store(reader.take<glm::ivec3>(packed::Tag::kBoundaryNeighbours), mesh.boundaryNeighbours,
+               error)) {
+        return error;
+    }
+    mesh.origin = header.origin;
+    mesh.convex = header.convex != 0;
+    mesh.cellsWithoutVolume = header.cellsWithoutVolume;
+    mesh.cellsInverted = header.cellsInverted;
+    mesh.cellsDoubled = header.cellsDoubled;
+    mesh.facesNotManifold = header.facesNotManifold;
+    for (std::uint64_t i = 0; i < header.fields; ++i) {
+        auto field = readField(reader);
+        if (!field) return field.error();
+        mesh.fields.push_back(std::move(*field));
+    }
+    if (const auto checked = packed::check(mesh); !checked) return checked.error();
+    return Dataset{std::move(mesh)};
+}
+
+Result<Dataset> readVolume(Reader& reader) {
+    const auto header = reader.takeOne<packed::VolumeHeader>(packed::Tag::kVolume);
+    if (!header) return header.error();
+    if (header->type > static_cast<std::uint32_t>(VoxelType::kF32)) {
+        return damaged("unknown voxel type");
+    }
+    Volume volume{.size = header->size,
+                  .spacing = header->spacing,
+                  .origin = header->origin,
+                  .direction = header->direction,
+                  .type = static_cast<VoxelType>(header->type),
+                  .channels = {}};
+    for (std::uint64_t i = 0; i < header->channels; ++i) {
+        Channel channel;
+        Error error;
+        if (!store(reader.takeOne<Range>(packed::Tag::kChannel), channel.range, error) ||
+            !store(reader.takeText(), channel.name, error) ||
+            !store(reader.takeText(), channel.unit, error) ||
+            !store(reader.take<std::byte>(packed::Tag::kVoxels), channel.voxels, error) ||
+            !store(reader.take<glm::vec2>(packed::Tag::kBricks), channel.bricks, error)) {
+            return error;
+        }
+        volume.channels.push_back(std::move(channel));
+    }
+    if (const auto checked = packed::check(volume); !checked) return checked.error();
+    return Dataset{std::move(volume)};
+}
+
+}  // namespace
+
+Result<base::FileDescriptor> pack(const Dataset& dataset) {
+    if (const Mesh* mesh = std::get_if<Mesh>(&dataset)) return packMesh(*mesh);
+    return packVolume(std::get<Volume>(dataset));
+}
+
+Result<Dataset> unpack(const base::FileDescriptor& fd) {
+    if (!base::isSealedReadOnly(fd)) {
+        return damaged("can still be written to, so checks of it mean nothing");
+    }
+    auto mapping = base::map(fd, false);
+    if (!mapping) return mapping.error();
+    Reader reader{std::move(*mapping)};
+    const auto kind = reader.open();
+    if (!kind) return kind.error();
+    if (*kind != packed::Kind::kMesh && *kind != packed::Kind::kVolume) {
+        return damaged("is neither a mesh nor a volume");
+    }
+    auto dataset = *kind == packed::Kind::kMesh ? readMesh(reader) : readVolume(reader);
+    if (!dataset) return dataset;
+    if (const auto finished = reader.finish(); !finished) return finished.error();
+    return dataset;
+}
+
+}  // namespace volcast::data
