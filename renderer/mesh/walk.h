@@ -85,8 +85,9 @@ struct DrawInputs {
     glm::ivec2 size{0};
     /// Equal numbers: camera, size and planeDepth are as they were when this view last drew.
     std::uint64_t cameraVersion = 0;
-    /// To be put into every recipe whose `classify` is classify/transfer_function.glsl.
-    std::vector<shading::Constant> mapConstants;
+    /// To be put, before the mesh's own, into every recipe and pass that includes lib/layer.glsl or
+    /// classifies by classify/transfer_function.glsl.
+    std::vector<shading::Constant> constants;
     /// Walk: colour 0, 32F, premultiplied, blended "over" (PassState{.blend = Blend::kOver}).
     /// Surface: colour 0 as before (opaque: alpha 1), colour 1 R32F the distance along the ray
     /// from its origin, and a depth attachment (DepthTest::kNearest; clip positions by

@@ -1,4 +1,5 @@
 // The layer's block, and the ray through a pixel.
+// Constants: kEndsAtSurfaces (there are opaque layers that rays end at).
 #include "contract/ray.glsl"
 #include "shared/bindings.glsl"
 #include "shared/layer_block.glsl"
@@ -25,5 +26,5 @@ Ray rayThrough(vec2 pixel) {
 }
 
 float opaqueDistance(vec2 pixel) {
-    return texelFetch(opaqueDistances, ivec2(pixel), 0).r;
+    return kEndsAtSurfaces ? texelFetch(opaqueDistances, ivec2(pixel), 0).r : 3.0e38;
 }
