@@ -36,6 +36,7 @@ void put(const plan::FramePlan& plan, internal::v1::Rendered* message) {
         added->set_evaluator(name(layer.evaluator));
         added->set_integrator(layer.integrator);
         added->set_drawn(layer.drawn);
+        added->set_step_world(layer.stepWorld);
         for (const plan::Effect& effect : layer.effects) {
             internal::v1::Effect* entry = added->add_effects();
             entry->set_name(effect.name);
@@ -53,6 +54,7 @@ plan::FramePlan planFrom(const internal::v1::Rendered& message) {
         added.evaluator = evaluatorFrom(layer.evaluator());
         added.integrator = layer.integrator();
         added.drawn = layer.drawn();
+        added.stepWorld = layer.step_world();
         for (const internal::v1::Effect& effect : layer.effects()) {
             added.effects.push_back(
                 {.name = effect.name(), .on = effect.on(), .reason = effect.reason()});

@@ -173,10 +173,15 @@ std::string besideThisProgram(const std::string& program) {
     return (slash == std::string::npos ? std::string{} : self.substr(0, slash + 1)) + program;
 }
 
-std::vector<std::string> inheritedEnvironment(const std::vector<std::string>& names) {
+std::vector<std::string> inheritedEnvironment(const std::vector<std::string>& prefixes) {
     std::vector<std::string> result;
-    for (const std::string& name : names) {
-        if (const char* value = std::getenv(name.c_str())) result.push_back(name + "=" + value);
+    for (char** entry = environ; entry != nullptr && *entry != nullptr; ++entry) {
+        const std::string_view variable{*entry};
+        for (const std::string& prefix : prefixes) {
+            if (!variable.starts_with(prefix)) continue;
+            result.emplace_back(variable);
+            break;
+        }
     }
     return result;
 }

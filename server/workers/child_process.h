@@ -61,7 +61,7 @@ private:
 /// Path of `program` in the folder of the running executable.
 std::string besideThisProgram(const std::string& program);
 
-/// "NAME=value" of those of `names` that are set in our environment.
-std::vector<std::string> inheritedEnvironment(const std::vector<std::string>& names);
+/// "NAME=value" of all variables of our environment whose name begins with one of `prefixes`.
+std::vector<std::string> inheritedEnvironment(const std::vector<std::string>& prefixes);
 
 }  // namespace volcast::workers

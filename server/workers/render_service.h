@@ -52,7 +52,11 @@ struct RenderSettings {
     std::string cacheFolder;  ///< For the driver's shader cache; empty: a private temporary one.
     std::chrono::milliseconds frameDeadline{10'000};  ///< Upload, compile, link and draw together.
     std::chrono::milliseconds startDeadline{20'000};
+    std::chrono::milliseconds datasetDeadline{120'000};  ///< To check and take over one dataset.
+    std::chrono::milliseconds heartbeatInterval{1'000};  ///< An idle worker is asked this often.
+    std::chrono::milliseconds heartbeatDeadline{3'000};  ///< And has this long to answer.
     bool warmSpare = true;
+    std::string shaderFolder;  ///< Chunks are read from here; empty: the embedded ones.
 };
 
 struct RenderStatus {

@@ -1,0 +1,356 @@
+#include "server/workers/supervisor.h"
+
+#include <algorithm>
+#include <poll.h>
+#include <sys/eventfd.h>
+#include <unistd.h>
+#include <utility>
+
+#include <spdlog/spdlog.h>
+
+#include "renderer/worker/exit_codes.h"
+#include "renderer/worker/frame_message.h"
+
+namespace volcast::workers {
+
+namespace {
+
+using std::chrono::milliseconds;
+using Clock = Supervisor::Clock;
+
+/// A spare starts a little later, so as not to take the processor from the first pictures.
+constexpr milliseconds kSpareDelay{300};
+/// After so many workers in a row that died before they were ready, requests fail.
+constexpr int kFailuresToGiveUp = 3;
+/// A process whose channel is closed is about to end; it has this long to say how.
+constexpr milliseconds kEndGrace{200};
+constexpr milliseconds kLongestWait{60'000};
+
+double msBetween(Clock::time_point from, Clock::time_point to) {
+    return std::chrono::duration<double, std::milli>(to - from).count();
+}
+
+std::string describe(const ExitStatus& status) {
+    const char* known = status.signalled ? "" : worker::describe(status.value);
+    return *known != '\0' ? known : status.text();
+}
+
+WorkDone workFrom(const internal::v1::Counters& message) {
+    return {.bufferUploads = message.buffer_uploads(),
+            .textureUploads = message.texture_uploads(),
+            .uploadedBytes = message.uploaded_bytes(),
+            .programsBuilt = message.programs_built(),
+            .drawCalls = message.draw_calls(),
+            .framesDrawn = message.frames_drawn()};
+}
+
+}  // namespace
+
+Result<void> Supervisor::begin() {
+    generation_ = 1;
+    start(main_);
+    while (main_ && !main_->ready()) {
+        wait();
+        serve(main_);
+        checkTimes();
+        reapDying();
+    }
+    if (main_) return {};
+    return startError_.value_or(fail(ErrorCode::kIo, "the GL worker cannot be started"));
+}
+
+bool Supervisor::turn(const std::function<Inbox()>& take) {
+    wait();
+    serve(main_);
+    serve(spare_);
+    Inbox inbox = take();
+    if (inbox.stop) return false;
+    accept(std::move(inbox));
+    checkTimes();
+    startWorkers();
+    dispatch();
+    reapDying();
+    return true;
+}
+
+void Supervisor::wait() {
+    std::vector<pollfd> entries{{.fd = wakeFd_, .events = POLLIN, .revents = 0}};
+    for (const Worker* worker : {&main_, &spare_}) {
+        if (!*worker) continue;
+        const auto events =
+            static_cast<short>((*worker)->wantsToSend() ? POLLIN | POLLOUT : POLLIN);
+        entries.push_back({.fd = (*worker)->channelFd(), .events = events, .revents = 0});
+        entries.push_back({.fd = (*worker)->pidfd(), .events = POLLIN, .revents = 0});
+    }
+    for (const ChildProcess& child : dying_) {
+        entries.push_back({.fd = child.pidfd(), .events = POLLIN, .revents = 0});
+    }
+    const auto left = std::chrono::ceil<milliseconds>(nextTime() - Clock::now());
+    const auto timeout = std::clamp(left, milliseconds{0}, kLongestWait);
+    if (::poll(entries.data(), entries.size(), static_cast<int>(timeout.count())) <= 0) return;
+    if ((entries.front().revents & POLLIN) != 0) {
+        eventfd_t count = 0;
+        ::eventfd_read(wakeFd_, &count);
+    }
+}
+
+Clock::time_point Supervisor::nextTime() const {
+    auto next = Clock::now() + kLongestWait;
+    for (const Worker* worker : {&main_, &spare_}) {
+        if (!*worker) continue;
+        if (const auto deadline = (*worker)->deadline()) {
+            next = std::min(next, *deadline);
+        } else {
+            next = std::min(next, (*worker)->lastHeard() + settings_.heartbeatInterval);
+        }
+    }
+    if (!main_) next = std::min(next, startAllowed_);
+    if (main_ && main_->ready() && !spare_ && settings_.warmSpare) {
+        next = std::min(next, spareAllowed_);
+    }
+    return next;
+}
+
+void Supervisor::accept(Inbox inbox) {
+    for (const Inbox::DatasetChange& dataset : inbox.datasets) change(dataset);
+    for (const std::uint64_t view : inbox.droppedViews) {
+        views_.drop(view);
+        if (main_) main_->dropView(view);
+    }
+    for (auto& [view, timed] : inbox.requests) {
+        views_.submit(std::move(timed.request), timed.submitted);
+    }
+}
+
+void Supervisor::change(const Inbox::DatasetChange& change) {
+    if (change.packed) {
+        datasets_[change.id] = change.packed;
+    } else {
+        datasets_.erase(change.id);
+    }
+    for (Worker* worker : {&main_, &spare_}) {
+        if (!*worker) continue;
+        if (change.packed) {
+            (*worker)->addDataset(change.id, change.packed, settings_.datasetDeadline);
+        } else {
+            (*worker)->removeDataset(change.id);
+        }
+    }
+}
+
+void Supervisor::serve(Worker& worker) {
+    while (worker) {
+        auto answer = worker->flush() ? worker->receive()
+                                      : fail(ErrorCode::kDeviceLost, "the channel is closed");
+        if (answer && answer->has_value()) {
+            handle(worker, **answer);
+            continue;
+        }
+        if (answer) {
+            if (const auto ended = worker->tryReap()) lose(worker, describe(*ended));
+            return;
+        }
+        if (answer.error().code != ErrorCode::kDeviceLost) {
+            return lose(worker, answer.error().message);
+        }
+        pollfd entry{.fd = worker->pidfd(), .events = POLLIN, .revents = 0};
+        ::poll(&entry, 1, static_cast<int>(kEndGrace.count()));
+        const auto ended = worker->tryReap();
+        return lose(worker, ended ? describe(*ended) : "closed its channel");
+    }
+}
+
+void Supervisor::handle(Worker& worker, const WorkerProcess::Answer& answer) {
+    if (answer.has_ready()) return becomeReady(worker);
+    if (answer.has_failed() && !worker->ready()) {
+        startError_ = worker::errorFrom(answer.failed());
+        return lose(worker, startError_->message);
+    }
+    if (answer.has_failed()) return refuse(answer.failed());
+    if (answer.has_rendered()) return finish(answer.rendered());
+}
+
+void Supervisor::becomeReady(Worker& worker) {
+    everReady_ = true;
+    startError_.reset();
+    backOff_.succeeded();
+    spareAllowed_ = Clock::now() + kSpareDelay;
+    spdlog::info("GL worker {} ready after {:.0f} ms: {} ({})", worker->pid(),
+                 worker->about().start_ms(), worker->about().gl_renderer(),
+                 &worker == &main_ ? "drawing" : "spare");
+}
+
+void Supervisor::finish(const internal::v1::Rendered& rendered) {
+    if (!inFlight_ || rendered.request() != inFlight_->number) {
+        return lose(main_, "drew a picture nobody asked for");
+    }
+    const InFlight done = *std::exchange(inFlight_, std::nullopt);
+    const bool wanted = views_.knows(done.request.view);
+    views_.succeeded(done.request);
+    dispatch();  // Into the other slot, while this one is copied.
+    if (!wanted) return;
+
+    const auto before = Clock::now();
+    auto picture = main_->copyPicture(rendered, done.request);
+    if (!picture && picture.error().code == ErrorCode::kLimitExceeded) {
+        if (events_.failed) events_.failed(done.request.view, done.request.tag, picture.error());
+        return;
+    }
+    if (!picture) return lose(main_, picture.error().message);
+    RenderedFrame frame;
+    frame.view = done.request.view;
+    frame.tag = done.request.tag;
+    frame.picture = *std::move(picture);
+    frame.plan = worker::planFrom(rendered);
+    frame.waitMs = done.waitMs;
+    frame.uploadMs = rendered.upload_ms();
+    frame.drawMs = rendered.draw_ms();
+    frame.readbackMs = rendered.readback_ms();
+    frame.copyMs = msBetween(before, Clock::now());
+    frame.cpuMs = rendered.cpu_ms();
+    frame.workerPeakMb = rendered.peak_mb();
+    frame.drawn = rendered.drawn();
+    frame.work = workFrom(rendered.work());
+    frame.generation = generation_;
+    if (events_.rendered) events_.rendered(std::move(frame));
+}
+
+void Supervisor::refuse(const internal::v1::Failed& failed) {
+    Error error = worker::errorFrom(failed);
+    if (failed.request() == 0) {
+        spdlog::error("dataset {}: {}", failed.dataset(), error.message);
+        return;
+    }
+    if (!inFlight_ || failed.request() != inFlight_->number) {
+        return lose(main_, "refused a picture nobody asked for");
+    }
+    const InFlight done = *std::exchange(inFlight_, std::nullopt);
+    views_.refused(done.request.view);
+    if (events_.failed) events_.failed(done.request.view, done.request.tag, std::move(error));
+}
+
+void Supervisor::dispatch() {
+    while (main_ && main_->ready() && !inFlight_) {
+        auto next = views_.next();
+        if (!next) return;
+        const RenderRequest& request = next->request;
+        auto asked = main_->render(nextNumber_, request, settings_.frameDeadline);
+        if (!asked) {
+            views_.refused(request.view);
+            if (events_.failed) events_.failed(request.view, request.tag, asked.error());
+            continue;
+        }
+        const double waitMs = msBetween(next->submitted, Clock::now());
+        inFlight_ = {.request = std::move(next->request), .number = nextNumber_, .waitMs = waitMs};
+        ++nextNumber_;
+        static_cast<void>(main_->flush());  // serve() notices a closed channel.
+    }
+}
+
+void Supervisor::checkTimes() {
+    const auto now = Clock::now();
+    for (Worker* worker : {&spare_, &main_}) {
+        if (!*worker) continue;
+        const auto deadline = (*worker)->deadline();
+        if (deadline && *deadline <= now) {
+            lose(*worker, (*worker)->deadlineMissed());
+        } else if (!deadline && (*worker)->lastHeard() + settings_.heartbeatInterval <= now) {
+            (*worker)->ping(settings_.heartbeatDeadline);
+            static_cast<void>((*worker)->flush());
+        }
+    }
+}
+
+void Supervisor::startWorkers() {
+    const auto now = Clock::now();
+    if (!main_ && startAllowed_ <= now) start(main_);
+    const bool spareWanted = settings_.warmSpare && main_ && main_->ready() && !spare_;
+    if (spareWanted && spareAllowed_ <= now) start(spare_);
+}
+
+void Supervisor::start(Worker& worker) {
+    auto started = WorkerProcess::start(settings_, cacheFolder_);
+    if (!started) return startFailed(started.error());
+    worker = *std::move(started);
+    for (const auto& [id, packed] : datasets_) {
+        worker->addDataset(id, packed, settings_.datasetDeadline);
+    }
+    static_cast<void>(worker->flush());
+}
+
+void Supervisor::startFailed(const Error& error) {
+    startError_ = error;
+    backOff_.failed();
+    startAllowed_ = spareAllowed_ = Clock::now() + backOff_.delay();
+    spdlog::error("GL worker cannot be started: {}; next try in {} ms", error.message,
+                  backOff_.delay().count());
+    if (main_ || backOff_.failures() < kFailuresToGiveUp) return;
+    for (const RenderRequest& request : views_.takeAll()) {
+        if (!events_.failed) break;
+        events_.failed(request.view, request.tag,
+                       fail(ErrorCode::kDeviceLost,
+                            "the lost GL worker cannot be replaced: " + error.message));
+    }
+}
+
+void Supervisor::lose(Worker& worker, const std::string& reason) {
+    const bool isMain = &worker == &main_;
+    const bool wasReady = worker->ready();
+    const int pid = worker->pid();
+    ChildProcess child = worker->takeChild();
+    worker.reset();
+    child.kill();
+    dying_.push_back(std::move(child));
+    if (wasReady) {
+        ++losses_;
+        lastLoss_ = reason;
+        spdlog::warn("GL worker {} ({}) {}", pid, isMain ? "drawing" : "spare", reason);
+        spareAllowed_ = Clock::now() + kSpareDelay;
+    } else {
+        startFailed(startError_.value_or(
+            fail(reason.starts_with("was not ready") ? ErrorCode::kTimeout : ErrorCode::kIo,
+                 "GL worker " + reason)));
+    }
+    if (!isMain) return;
+    main_ = std::exchange(spare_, std::nullopt);
+    if (wasReady) loseMain();
+}
+
+void Supervisor::loseMain() {
+    ++generation_;
+    auto inFlight = std::exchange(inFlight_, std::nullopt);
+    std::optional<RenderRequest> request;
+    if (inFlight) request = std::move(inFlight->request);
+    const ViewQueue::Loss loss = views_.lost(std::move(request), Clock::now());
+    startWorkers();
+    dispatch();
+    if (events_.recovering && !loss.views.empty()) events_.recovering(loss.views);
+    for (const RenderRequest& givenUp : loss.givenUp) {
+        if (!events_.failed) break;
+        events_.failed(
+            givenUp.view, givenUp.tag,
+            fail(ErrorCode::kDeviceLost,
+                 "drawing this took down two GL workers in a row; the last one " + lastLoss_));
+    }
+}
+
+void Supervisor::reapDying() {
+    std::erase_if(dying_, [](ChildProcess& child) { return child.tryReap().has_value(); });
+}
+
+RenderStatus Supervisor::status() const {
+    RenderStatus status;
+    status.ready = main_ && main_->ready();
+    status.generation = generation_;
+    status.losses = losses_;
+    status.spareReady = spare_ && spare_->ready();
+    status.workerPid = main_ ? main_->pid() : 0;
+    if (status.ready) {
+        status.glRenderer = main_->about().gl_renderer();
+        status.glVersion = main_->about().gl_version();
+    }
+    status.lastLoss = lastLoss_;
+    return status;
+}
+
+}  // namespace volcast::workers

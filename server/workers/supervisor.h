@@ -1,0 +1,101 @@
+#pragma once
+
+#include <map>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "server/workers/back_off.h"
+#include "server/workers/private_folder.h"
+#include "server/workers/view_queue.h"
+#include "server/workers/worker_process.h"
+
+namespace volcast::workers {
+
+/// What other threads ask of the supervisor, merged so that it stays small: a newer request of a
+/// view replaces an older one.
+struct Inbox {
+    struct DatasetChange {
+        std::string id;
+        SharedDescriptor packed;  ///< Empty: the dataset is removed.
+    };
+    std::vector<DatasetChange> datasets;
+    std::vector<std::uint64_t> droppedViews;
+    std::map<std::uint64_t, TimedRequest> requests;  ///< Newest of each view.
+    bool stop = false;
+};
+
+/// Keeps one worker drawing and one spare waiting. Single-threaded: everything happens in run().
+class Supervisor {
+public:
+    using Clock = std::chrono::steady_clock;
+
+    Supervisor(RenderSettings settings, RenderEvents events, std::string cacheFolder, int wakeFd)
+        : settings_{std::move(settings)},
+          events_{std::move(events)},
+          cacheFolder_{std::move(cacheFolder)},
+          wakeFd_{wakeFd} {}
+
+    /// Starts the first worker and waits until it is ready or has failed.
+    ///
+    /// Errors: as RenderService::create.
+    Result<void> begin();
+
+    /// One turn: waits until something happens, and handles it. `take` empties the inbox; false
+    /// once it says stop.
+    bool turn(const std::function<Inbox()>& take);
+
+    [[nodiscard]] RenderStatus status() const;
+
+private:
+    using Worker = std::optional<WorkerProcess>;
+    struct InFlight {
+        RenderRequest request;
+        std::uint64_t number = 0;
+        double waitMs = 0.0;
+    };
+
+    void wait();
+    void accept(Inbox inbox);
+    void change(const Inbox::DatasetChange& change);
+    void serve(Worker& worker);
+    void handle(Worker& worker, const WorkerProcess::Answer& answer);
+    void finish(const internal::v1::Rendered& rendered);
+    void refuse(const internal::v1::Failed& failed);
+    void dispatch();
+    void checkTimes();
+    void startWorkers();
+    void start(Worker& worker);
+    void becomeReady(Worker& worker);
+    void reapDying();
+
+    /// The worker is gone or has to go: its end, its successor, and what to draw again.
+    void lose(Worker& worker, const std::string& reason);
+    void loseMain();
+    void startFailed(const Error& error);
+    [[nodiscard]] Clock::time_point nextTime() const;
+
+    RenderSettings settings_;
+    RenderEvents events_;
+    std::string cacheFolder_;
+    int wakeFd_;
+
+    Worker main_;
+    Worker spare_;
+    std::vector<ChildProcess> dying_;
+    std::map<std::string, SharedDescriptor> datasets_;
+    ViewQueue views_;
+    std::optional<InFlight> inFlight_;
+    std::uint64_t nextNumber_ = 1;
+
+    BackOff backOff_;
+    Clock::time_point startAllowed_ = Clock::now();
+    Clock::time_point spareAllowed_ = Clock::now();
+    std::optional<Error> startError_;  ///< Why the last worker could not start.
+    bool everReady_ = false;
+    std::uint32_t generation_ = 0;
+    std::uint32_t losses_ = 0;
+    std::string lastLoss_;
+};
+
+}  // namespace volcast::workers

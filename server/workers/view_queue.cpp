@@ -1,0 +1,79 @@
+#include "server/workers/view_queue.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace volcast::workers {
+
+namespace {
+
+constexpr int kLossesToGiveUp = 2;
+
+}  // namespace
+
+void ViewQueue::wait(std::uint64_t id, View& view, TimedRequest request) {
+    if (!view.waiting) turns_.push_back(id);
+    view.waiting = std::move(request);
+}
+
+void ViewQueue::submit(RenderRequest request, Clock::time_point now) {
+    const std::uint64_t id = request.view;
+    wait(id, views_[id], {.request = std::move(request), .submitted = now});
+}
+
+void ViewQueue::drop(std::uint64_t view) {
+    views_.erase(view);
+    std::erase(turns_, view);
+}
+
+std::optional<TimedRequest> ViewQueue::next() {
+    if (turns_.empty()) return std::nullopt;
+    View& view = views_.at(turns_.front());
+    turns_.pop_front();
+    return std::exchange(view.waiting, std::nullopt);
+}
+
+void ViewQueue::succeeded(RenderRequest drawn) {
+    const auto found = views_.find(drawn.view);
+    if (found == views_.end()) return;
+    found->second.lossesInARow = 0;
+    found->second.lastGood = std::move(drawn);
+}
+
+void ViewQueue::refused(std::uint64_t view) {
+    const auto found = views_.find(view);
+    if (found != views_.end()) found->second.lossesInARow = 0;
+}
+
+ViewQueue::Loss ViewQueue::lost(std::optional<RenderRequest> inFlight, Clock::time_point now) {
+    Loss loss;
+    const std::uint64_t suspect = inFlight ? inFlight->view : 0;
+    for (auto& [id, view] : views_) {
+        loss.views.push_back(id);
+        const bool drawAgain = !view.waiting && view.lastGood && !(inFlight && id == suspect);
+        if (drawAgain) wait(id, view, {.request = *view.lastGood, .submitted = now});
+    }
+    const auto found = inFlight ? views_.find(suspect) : views_.end();
+    if (found == views_.end()) return loss;
+
+    View& view = found->second;
+    std::erase(turns_, suspect);
+    if (++view.lossesInARow >= kLossesToGiveUp) {
+        view.lossesInARow = kLossesToGiveUp - 1;
+        loss.givenUp.push_back(*std::move(inFlight));
+        if (view.waiting) loss.givenUp.push_back(std::move(view.waiting->request));
+        view.waiting.reset();
+        return loss;
+    }
+    if (!view.waiting) view.waiting = {.request = *std::move(inFlight), .submitted = now};
+    turns_.push_back(suspect);
+    return loss;
+}
+
+std::vector<RenderRequest> ViewQueue::takeAll() {
+    std::vector<RenderRequest> taken;
+    while (auto waiting = next()) taken.push_back(std::move(waiting->request));
+    return taken;
+}
+
+}  // namespace volcast::workers

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "server/workers/render_service.h"
+
+namespace volcast::workers {
+
+/// A request and when it came.
+struct TimedRequest {
+    RenderRequest request;
+    std::chrono::steady_clock::time_point submitted;
+};
+
+/// Who is drawn next: a one-slot mailbox for each view, views take turns. Remembers what to draw
+/// again after a worker was lost, and which view seems to cost workers.
+///
+/// Not thread-safe; the supervisor's thread owns it.
+class ViewQueue {
+public:
+    using Clock = std::chrono::steady_clock;
+
+    /// Replaces the view's request that has not been taken yet.
+    void submit(RenderRequest request, Clock::time_point now);
+    /// Forgets the view.
+    void drop(std::uint64_t view);
+    [[nodiscard]] bool knows(std::uint64_t view) const { return views_.contains(view); }
+
+    /// Takes the request whose turn it is. It is in flight until one of the calls below.
+    std::optional<TimedRequest> next();
+    /// `drawn` is now the view's last good request.
+    void succeeded(RenderRequest drawn);
+    /// The worker refused the request, and lived.
+    void refused(std::uint64_t view);
+
+    /// What to tell after a loss.
+    struct Loss {
+        std::vector<std::uint64_t> views;    ///< All known views; they will be drawn again.
+        std::vector<RenderRequest> givenUp;  ///< These lost two workers in a row.
+    };
+    /// A worker was lost, with `inFlight` in its hands if it had one. The last request of every
+    /// view waits again afterwards; the view in flight comes last.
+    ///
+    /// A view that has lost two workers in a row is given up. It may try again, but until it
+    /// succeeds each further loss gives it up at once.
+    Loss lost(std::optional<RenderRequest> inFlight, Clock::time_point now);
+
+    /// Takes all waiting requests, to fail them.
+    std::vector<RenderRequest> takeAll();
+
+private:
+    struct View {
+        std::optional<TimedRequest> waiting;
+        std::optional<RenderRequest> lastGood;
+        int lossesInARow = 0;
+    };
+    void wait(std::uint64_t id, View& view, TimedRequest request);
+
+    std::map<std::uint64_t, View> views_;
+    std::deque<std::uint64_t> turns_;  ///< Views with a waiting request, each once.
+};
+
+}  // namespace volcast::workers

@@ -1,0 +1,147 @@
+#include "server/workers/view_queue.h"
+
+#include <gtest/gtest.h>
+
+namespace volcast::workers {
+namespace {
+
+const ViewQueue::Clock::time_point kNow{};
+
+RenderRequest request(std::uint64_t view, std::uint64_t tag) {
+    RenderRequest result;
+    result.view = view;
+    result.tag = tag;
+    return result;
+}
+
+/// View and tag of the request whose turn it is; {0, 0}: none.
+std::pair<std::uint64_t, std::uint64_t> take(ViewQueue& queue) {
+    const auto next = queue.next();
+    return next ? std::pair{next->request.view, next->request.tag}
+                : std::pair{std::uint64_t{0}, std::uint64_t{0}};
+}
+
+using Taken = std::pair<std::uint64_t, std::uint64_t>;
+
+TEST(ViewQueue, NewerRequestReplacesTheOneThatWaits) {
+    ViewQueue queue;
+    queue.submit(request(1, 10), kNow);
+    queue.submit(request(1, 11), kNow);
+    EXPECT_EQ(take(queue), Taken(1, 11));
+    EXPECT_EQ(take(queue), Taken(0, 0));
+}
+
+TEST(ViewQueue, ViewsTakeTurnsHoweverOftenOneSubmits) {
+    ViewQueue queue;
+    queue.submit(request(1, 1), kNow);
+    queue.submit(request(2, 1), kNow);
+    queue.submit(request(3, 1), kNow);
+    for (std::uint64_t tag = 2; tag < 20; ++tag) queue.submit(request(1, tag), kNow);
+    EXPECT_EQ(take(queue), Taken(1, 19));
+    queue.submit(request(1, 20), kNow);
+    EXPECT_EQ(take(queue), Taken(2, 1));
+    EXPECT_EQ(take(queue), Taken(3, 1));
+    EXPECT_EQ(take(queue), Taken(1, 20));
+}
+
+TEST(ViewQueue, DroppedViewIsForgotten) {
+    ViewQueue queue;
+    queue.submit(request(1, 1), kNow);
+    queue.submit(request(2, 1), kNow);
+    queue.drop(1);
+    EXPECT_FALSE(queue.knows(1));
+    EXPECT_EQ(take(queue), Taken(2, 1));
+    EXPECT_EQ(take(queue), Taken(0, 0));
+    queue.succeeded(request(1, 1));  // Was in flight while it was dropped.
+    EXPECT_FALSE(queue.knows(1));
+}
+
+TEST(ViewQueue, LossDrawsEveryViewAgainAndTheOneInFlightLast) {
+    ViewQueue queue;
+    for (const std::uint64_t view : {1, 2, 3}) {
+        queue.submit(request(view, 5), kNow);
+        queue.succeeded(queue.next()->request);
+    }
+    queue.submit(request(2, 6), kNow);
+    queue.submit(request(1, 7), kNow);
+    ASSERT_EQ(take(queue), Taken(2, 6));  // In flight when the worker goes.
+    const auto loss = queue.lost(request(2, 6), kNow);
+    EXPECT_EQ(loss.views, (std::vector<std::uint64_t>{1, 2, 3}));
+    EXPECT_TRUE(loss.givenUp.empty());
+    EXPECT_EQ(take(queue), Taken(1, 7));  // What waited is newer than what was drawn.
+    EXPECT_EQ(take(queue), Taken(3, 5));
+    EXPECT_EQ(take(queue), Taken(2, 6));
+    EXPECT_EQ(take(queue), Taken(0, 0));
+}
+
+TEST(ViewQueue, RequestThatLosesTwoWorkersIsGivenUpAndTheViewGoesOn) {
+    ViewQueue queue;
+    queue.submit(request(1, 1), kNow);
+    EXPECT_TRUE(queue.lost(queue.next()->request, kNow).givenUp.empty());
+    const auto second = queue.lost(queue.next()->request, kNow);
+    ASSERT_EQ(second.givenUp.size(), 1U);
+    EXPECT_EQ(second.givenUp[0].tag, 1U);
+    EXPECT_EQ(take(queue), Taken(0, 0));
+    queue.submit(request(1, 2), kNow);
+    EXPECT_EQ(take(queue), Taken(1, 2));
+}
+
+TEST(ViewQueue, NewerRequestOfTheSameViewDoesNotBuyAThirdWorker) {
+    ViewQueue queue;
+    queue.submit(request(1, 1), kNow);
+    queue.lost(queue.next()->request, kNow);
+    const auto inFlight = queue.next()->request;
+    queue.submit(request(1, 2), kNow);
+    const auto second = queue.lost(inFlight, kNow);
+    ASSERT_EQ(second.givenUp.size(), 2U);
+    EXPECT_EQ(second.givenUp[0].tag, 1U);
+    EXPECT_EQ(second.givenUp[1].tag, 2U);
+    EXPECT_EQ(take(queue), Taken(0, 0));
+}
+
+TEST(ViewQueue, GivenUpViewHasOneTryUntilItSucceeds) {
+    ViewQueue queue;
+    queue.submit(request(1, 1), kNow);
+    queue.lost(queue.next()->request, kNow);
+    queue.lost(queue.next()->request, kNow);
+    queue.submit(request(1, 2), kNow);
+    EXPECT_EQ(queue.lost(queue.next()->request, kNow).givenUp.size(), 1U);
+    queue.submit(request(1, 3), kNow);
+    queue.succeeded(queue.next()->request);
+    queue.submit(request(1, 4), kNow);
+    EXPECT_TRUE(queue.lost(queue.next()->request, kNow).givenUp.empty());
+}
+
+TEST(ViewQueue, LossWhileIdleBlamesNobody) {
+    ViewQueue queue;
+    queue.submit(request(1, 1), kNow);
+    queue.succeeded(queue.next()->request);
+    for (int i = 0; i < 5; ++i) {
+        EXPECT_TRUE(queue.lost(std::nullopt, kNow).givenUp.empty());
+        EXPECT_EQ(take(queue), Taken(1, 1));
+        queue.succeeded(request(1, 1));
+    }
+}
+
+TEST(ViewQueue, RefusedRequestDoesNotBecomeTheLastGoodOne) {
+    ViewQueue queue;
+    queue.submit(request(1, 1), kNow);
+    queue.succeeded(queue.next()->request);
+    queue.submit(request(1, 2), kNow);
+    queue.next();
+    queue.refused(1);
+    queue.lost(std::nullopt, kNow);
+    EXPECT_EQ(take(queue), Taken(1, 1));
+}
+
+TEST(ViewQueue, TakeAllEmptiesEveryMailbox) {
+    ViewQueue queue;
+    queue.submit(request(1, 1), kNow);
+    queue.submit(request(2, 1), kNow);
+    EXPECT_EQ(queue.takeAll().size(), 2U);
+    EXPECT_EQ(take(queue), Taken(0, 0));
+    EXPECT_TRUE(queue.knows(1));
+}
+
+}  // namespace
+}  // namespace volcast::workers
