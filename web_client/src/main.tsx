@@ -1,0 +1,205 @@
+import { computed, effect, type ReadonlySignal, signal, untracked } from "@preact/signals";
+import { render } from "preact";
+import type { Frame } from "./net/framing";
+import { Session } from "./net/session";
+import { savePicture } from "./save_picture";
+import {
+  adoptScene,
+  currentDocument,
+  redo,
+  resetCamera,
+  restoreDocument,
+  undo,
+} from "./state/actions";
+import { createAppState, notify, type PictureInfo } from "./state/app_state";
+import type { ViewDocument } from "./state/document";
+import { keepDocument, keptDocument } from "./state/keeper";
+import { Recorder } from "./state/recorder";
+import { App } from "./ui/app";
+import type { AppPort } from "./ui/port";
+import "./ui/style.css";
+import { openScreen } from "./video/screen";
+import type { PictureReport } from "./video/worker_messages";
+import { withOtherProjection } from "./view/camera";
+import { controlCamera } from "./view/camera_control";
+import { type KeyAction, meaningOf, takesKey } from "./view/keyboard";
+import { createPictureElement, keepHeight } from "./view/picture_element";
+import { followSize, limited } from "./view/viewport";
+
+declare global {
+  interface Window {
+    /** Measurements for benchmarks: input to drawn in ms, oldest first. */
+    volcast: { latencies(): readonly number[]; clearLatencies(): void };
+  }
+}
+
+const kMaxSide = 8192;
+const state = createAppState();
+const helpOpen = signal(false);
+const picture = createPictureElement();
+const recorder = new Recorder(state);
+const screen = openScreen(picture.canvas, reported, (reason) =>
+  notify(state, "error", `Pictures cannot be shown: ${reason}`),
+);
+
+/** Frames that the screen works on, by view and sequence. */
+const underway = new Map<string, { frame: Frame; bytes: number }>();
+/** Views of datasets that were left, to come back to. */
+const left = new Map<string, ViewDocument>();
+/** True while signals take over what the server has already. */
+let adopting = false;
+
+const kept = keptDocument();
+if (kept) restoreDocument(state, kept);
+
+const address = `${location.protocol === "https:" ? "wss" : "ws"}://${location.host}/v1/ws`;
+const session = new Session(address, state, {
+  frame(frame, receivedAt) {
+    const { view, sequence } = frame.prefix;
+    underway.set(`${view} ${sequence}`, { frame, bytes: frame.payload.length });
+    const { payload } = frame;
+    screen.show({ view, sequence, codec: frame.header.codec, payload, receivedAt });
+  },
+  opened(scene) {
+    adopt(() => adoptScene(state, scene));
+    if (state.orbit.value !== state.home.value) session.mark("camera");
+  },
+  restored: (document) => adopt(() => restoreDocument(state, document)),
+  current: () => currentDocument(state),
+});
+
+function adopt(change: () => void): void {
+  adopting = true;
+  change();
+  adopting = false;
+}
+
+function reported(report: PictureReport): void {
+  const id = `${report.view} ${report.sequence}`;
+  const item = underway.get(id);
+  underway.delete(id);
+  const holdMs = report.doneAt - report.receivedAt;
+  session.acknowledge(report.view, report.sequence, holdMs, report.decodeMs, report.queue);
+  if (report.kind === "failed") {
+    notify(state, "error", `Picture ${report.sequence} could not be decoded: ${report.reason}`);
+  }
+  if (report.kind !== "drawn" || !item) return;
+  const { header } = item.frame;
+  const drawnAt = report.doneAt - performance.timeOrigin;
+  recorder.drawn(drawnAt, session.takeInputTime(header.inputSeq));
+  const shown: PictureInfo = {
+    ...header,
+    view: report.view,
+    timings: header.timings,
+    bytes: item.bytes,
+    decodeMs: report.decodeMs,
+  };
+  state.picture.value = shown;
+  const { dataset } = picture.element;
+  dataset["view"] = String(report.view);
+  dataset["sequence"] = String(report.sequence);
+  dataset["inputSeq"] = String(header.inputSeq);
+  dataset["lossless"] = String(header.lossless);
+  dataset["workerGeneration"] = String(header.workerGeneration);
+  dataset["size"] = `${header.width}x${header.height}`;
+  keepHeight(picture, header.width / Math.max(1, header.height));
+}
+
+/** Calls `react` on every change of `value` that the server does not know yet. */
+function onEdit(value: ReadonlySignal<unknown>, react: () => void): void {
+  let first = true;
+  effect(() => {
+    value.value;
+    if (!first && !adopting) untracked(react);
+    first = false;
+  });
+}
+
+onEdit(state.scene, () => session.mark("scene"));
+onEdit(
+  computed(() => state.edit.value.present),
+  () => session.mark("scene"),
+);
+onEdit(state.orbit, () => session.mark("camera"));
+onEdit(state.viewport, () => session.resized());
+
+const port: AppPort = {
+  openDataset(id) {
+    const document = currentDocument(state);
+    const shown = state.layer.value?.dataset;
+    if (document && shown) left.set(shown, document);
+    session.open(id, left.get(id));
+  },
+  importAgain: (id) => session.importAgain(id),
+  drawAgain: () => session.drawAgain(),
+  reconnect: () => session.connect(),
+  screenshot: () => void savePicture(state, screen),
+  toggleProjection() {
+    if (state.orbit.value) state.orbit.value = withOtherProjection(state.orbit.value);
+  },
+  resetCamera: () => resetCamera(state),
+  toggleFullscreen() {
+    const change = document.fullscreenElement
+      ? document.exitFullscreen()
+      : picture.element.closest(".stage")?.requestFullscreen();
+    change?.catch((error: unknown) => notify(state, "info", `No full screen: ${String(error)}`));
+  },
+};
+
+followSize(picture.element, (width, height) => {
+  const size = limited(width, height, state.welcome.value?.limits?.maxSide || kMaxSide);
+  const before = state.viewport.value;
+  if (width === 0 || height === 0) return;
+  if (before?.width === size.width && before.height === size.height) return;
+  state.viewport.value = size;
+});
+
+controlCamera(picture.element, {
+  orbit: () => state.orbit.value,
+  move(next, inputAt) {
+    state.input.at = inputAt;
+    state.orbit.value = next;
+  },
+  reset(inputAt) {
+    state.input.at = inputAt;
+    resetCamera(state);
+  },
+});
+
+const kKeyActions: Readonly<Record<KeyAction, () => void>> = {
+  reset: port.resetCamera,
+  fullscreen: port.toggleFullscreen,
+  help: () => {
+    helpOpen.value = true;
+  },
+  undo: () => undo(state),
+  redo: () => redo(state),
+};
+
+window.addEventListener("keydown", (event) => {
+  if (event.defaultPrevented || takesKey(event.target, event.key)) return;
+  const meaning = meaningOf(event);
+  if (!meaning) return;
+  event.preventDefault();
+  state.input.at = event.timeStamp;
+  if ("do" in meaning) kKeyActions[meaning.do]();
+  else if (state.orbit.value) state.orbit.value = meaning.move(state.orbit.value);
+});
+
+window.addEventListener("online", () => session.connect());
+document.addEventListener("visibilitychange", () => {
+  if (document.visibilityState === "visible") session.connect();
+});
+
+keepDocument(state);
+window.volcast = {
+  latencies: () => recorder.latencies(),
+  clearLatencies: () => recorder.clear(),
+};
+
+const app = document.getElementById("app");
+if (app) {
+  const mount = (host: HTMLElement | null): void => host?.append(picture.element);
+  render(<App state={state} port={port} helpOpen={helpOpen} picture={mount} />, app);
+}
+session.connect();

@@ -1,0 +1,115 @@
+import { computed, signal } from "@preact/signals";
+import type { Codec, Timings } from "../net/gen/volcast/v1/frame_pb";
+import type { Layer, Scene } from "../net/gen/volcast/v1/scene_pb";
+import type { DatasetInfo, FieldInfo, ViewState, Welcome } from "../net/gen/volcast/v1/session_pb";
+import { referenceLengthOf } from "../transfer/opacity";
+import type { TransferFunction } from "../transfer/transfer_function";
+import type { Bounds, Orbit } from "../view/camera";
+import { length, subtract, type Vec3 } from "../view/vec3";
+import { type History, startHistory } from "./history";
+
+export type ConnectionStatus =
+  | { readonly kind: "connecting" }
+  | { readonly kind: "open" }
+  | { readonly kind: "lost"; readonly retryAt: number; readonly reason: string };
+
+/** The picture on the screen. */
+export interface PictureInfo {
+  readonly view: number;
+  readonly inputSeq: bigint;
+  readonly width: number;
+  readonly height: number;
+  readonly codec: Codec;
+  readonly lossless: boolean;
+  readonly final: boolean;
+  readonly integrators: readonly string[];
+  readonly workerGeneration: number;
+  readonly timings: Timings | undefined;
+  readonly bytes: number;
+  readonly decodeMs: number;
+}
+
+/** The transfer function as it is edited; what is drawn has its extinction times `density`. */
+export interface MapEdit {
+  readonly map: TransferFunction;
+  readonly density: number;
+}
+
+/** A sentence for the user that waits until it is read. */
+export interface Notice {
+  readonly id: number;
+  readonly kind: "error" | "info";
+  readonly text: string;
+}
+
+export interface ViewportSize {
+  readonly width: number;
+  readonly height: number;
+}
+
+const point = (v: { x: number; y: number; z: number } | undefined): Vec3 =>
+  v ? [v.x, v.y, v.z] : [0, 0, 0];
+
+/** Everything the parts share. They read and write these signals and do not know each other. */
+export function createAppState() {
+  const datasets = signal<readonly DatasetInfo[]>([]);
+  const scene = signal<Scene | undefined>(undefined);
+  const layer = computed<Layer | undefined>(() => scene.value?.layers[0]);
+  const dataset = computed<DatasetInfo | undefined>(() =>
+    datasets.value.find((d) => d.id === layer.value?.dataset),
+  );
+  const field = computed<FieldInfo | undefined>(() => {
+    const fields = dataset.value?.fields ?? [];
+    return fields.find((f) => f.name === layer.value?.field) ?? fields[0];
+  });
+  const bounds = computed<Bounds | undefined>(() => {
+    const d = dataset.value;
+    if (!d?.boundsMin || !d.boundsMax) return undefined;
+    return { min: point(d.boundsMin), max: point(d.boundsMax) };
+  });
+  const referenceLength = computed(() => {
+    const b = bounds.value;
+    return referenceLengthOf(b ? length(subtract(b.max, b.min)) : 0);
+  });
+  return {
+    connection: signal<ConnectionStatus>({ kind: "connecting" }),
+    welcome: signal<Welcome | undefined>(undefined),
+    datasets,
+    /** The dataset that was asked for and is not shown yet. */
+    pendingDataset: signal<string | undefined>(undefined),
+    view: signal<{ readonly state: ViewState; readonly message: string } | undefined>(undefined),
+    scene,
+    layer,
+    dataset,
+    field,
+    bounds,
+    referenceLength,
+    orbit: signal<Orbit | undefined>(undefined),
+    home: signal<Orbit | undefined>(undefined),
+    edit: signal<History<MapEdit>>(startHistory({ map: [], density: 1 })),
+    viewport: signal<ViewportSize | undefined>(undefined),
+    picture: signal<PictureInfo | undefined>(undefined),
+    newestInput: signal(0n),
+    notices: signal<readonly Notice[]>([]),
+    framesPerSecond: signal(0),
+    latency: signal<{ readonly p50: number; readonly p95: number } | undefined>(undefined),
+    /** When the input that is being handled happened; a plain value, read once. */
+    input: { at: undefined as number | undefined },
+  };
+}
+
+export type AppState = ReturnType<typeof createAppState>;
+
+const kMostNotices = 4;
+let lastNotice = 0;
+
+/** Shows a sentence; the same sentence is not shown twice. */
+export function notify(state: AppState, kind: Notice["kind"], text: string): void {
+  const others = state.notices.value.filter((n) => n.text !== text);
+  lastNotice += 1;
+  state.notices.value = [...others, { id: lastNotice, kind, text }].slice(-kMostNotices);
+}
+
+export function dismiss(state: AppState, id: number): void {
+  state.notices.value = state.notices.value.filter((n) => n.id !== id);
+}

@@ -1,0 +1,57 @@
+import { describe, expect, it } from "vitest";
+import { ViewState } from "../net/gen/volcast/v1/session_pb";
+import { createAppState, dismiss, notify, type PictureInfo } from "./app_state";
+import { badgeOf } from "./badge";
+
+const picture = { inputSeq: 5n, lossless: true, final: true } as PictureInfo;
+
+function connected() {
+  const state = createAppState();
+  state.connection.value = { kind: "open" };
+  state.view.value = { state: ViewState.ACTIVE, message: "" };
+  state.picture.value = picture;
+  state.newestInput.value = 5n;
+  return state;
+}
+
+describe("badge", () => {
+  it("says exact only for the lossless picture of the newest input", () => {
+    const state = connected();
+    expect(badgeOf(state, 0).kind).toBe("final");
+    state.newestInput.value = 6n;
+    expect(badgeOf(state, 0).kind).toBe("moving");
+    state.newestInput.value = 5n;
+    state.picture.value = { ...picture, lossless: false };
+    expect(badgeOf(state, 0).kind).toBe("live");
+    state.picture.value = { ...picture, final: false };
+    expect(badgeOf(state, 0).kind).toBe("live");
+  });
+
+  it("puts trouble before everything else", () => {
+    const state = connected();
+    state.view.value = { state: ViewState.FAILED, message: "out of memory" };
+    expect(badgeOf(state, 0)).toMatchObject({ kind: "failed", detail: "out of memory" });
+    state.view.value = { state: ViewState.RECOVERING, message: "" };
+    expect(badgeOf(state, 0).kind).toBe("recovering");
+    state.connection.value = { kind: "lost", retryAt: 5000, reason: "closed" };
+    expect(badgeOf(state, 2900)).toMatchObject({ label: "Reconnecting in 3 s" });
+    expect(badgeOf(state, 9000)).toMatchObject({ label: "Reconnecting in 0 s" });
+  });
+
+  it("waits for data before the first picture", () => {
+    const state = connected();
+    state.picture.value = undefined;
+    expect(badgeOf(state, 0).kind).toBe("waiting");
+    expect(badgeOf(createAppState(), 0).kind).toBe("connecting");
+  });
+});
+
+describe("notices", () => {
+  it("are bounded, unique and can be dismissed", () => {
+    const state = createAppState();
+    for (const text of ["a", "b", "a", "c", "d", "e"]) notify(state, "error", text);
+    expect(state.notices.value.map((n) => n.text)).toEqual(["a", "c", "d", "e"]);
+    dismiss(state, state.notices.value[0]?.id ?? 0);
+    expect(state.notices.value.map((n) => n.text)).toEqual(["c", "d", "e"]);
+  });
+});

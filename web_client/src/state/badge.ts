@@ -1,0 +1,53 @@
+import { ViewState } from "../net/gen/volcast/v1/session_pb";
+import type { AppState } from "./app_state";
+
+export type BadgeKind =
+  | "connecting"
+  | "waiting"
+  | "moving"
+  | "live"
+  | "final"
+  | "recovering"
+  | "reconnecting"
+  | "failed";
+
+/** What the user should know about the picture right now. */
+export interface Badge {
+  readonly kind: BadgeKind;
+  readonly label: string;
+  readonly detail: string;
+}
+
+type Facts = Pick<AppState, "connection" | "view" | "picture" | "newestInput">;
+
+/** Reads signals, so that whoever shows it follows them; `now` on performance.now()'s clock. */
+export function badgeOf(state: Facts, now: number): Badge {
+  const connection = state.connection.value;
+  if (connection.kind === "lost") {
+    const seconds = Math.max(0, Math.ceil((connection.retryAt - now) / 1000));
+    const label = `Reconnecting in ${seconds} s`;
+    return { kind: "reconnecting", label, detail: `Connection lost: ${connection.reason}` };
+  }
+  if (connection.kind === "connecting") {
+    return { kind: "connecting", label: "Connecting", detail: "Waiting for the server" };
+  }
+  const view = state.view.value;
+  if (view?.state === ViewState.RECOVERING) {
+    const detail = view.message || "The renderer is being replaced; nothing is lost";
+    return { kind: "recovering", label: "Recovering", detail };
+  }
+  if (view?.state === ViewState.FAILED) {
+    return { kind: "failed", label: "Not drawn", detail: view.message };
+  }
+  const picture = state.picture.value;
+  if (view?.state === ViewState.WAITING || !picture) {
+    return { kind: "waiting", label: "Loading data", detail: view?.message ?? "" };
+  }
+  if (picture.inputSeq < state.newestInput.value) {
+    return { kind: "moving", label: "Moving", detail: "A newer picture is on its way" };
+  }
+  if (picture.lossless && picture.final) {
+    return { kind: "final", label: "Final, exact", detail: "Lossless: exactly what was rendered" };
+  }
+  return { kind: "live", label: "Live", detail: "Up to date; the lossless picture follows" };
+}

@@ -1,0 +1,35 @@
+/** The newest `capacity` numbers, oldest first. */
+export class Ring {
+  readonly #capacity: number;
+  #values: number[] = [];
+
+  constructor(capacity: number) {
+    this.#capacity = capacity;
+  }
+
+  push(value: number): void {
+    this.#values.push(value);
+    if (this.#values.length > this.#capacity) this.#values.shift();
+  }
+
+  values(): readonly number[] {
+    return [...this.#values];
+  }
+
+  clear(): void {
+    this.#values = [];
+  }
+}
+
+/** The value below which the share `p` of `values` lies (nearest rank); undefined for none. */
+export function percentile(values: readonly number[], p: number): number | undefined {
+  const sorted = [...values].sort((a, b) => a - b);
+  const rank = Math.ceil(p * sorted.length);
+  return sorted[Math.min(sorted.length, Math.max(1, rank)) - 1];
+}
+
+/** Events per second over the last `windowMs`, from their times in ms. */
+export function rate(times: readonly number[], now: number, windowMs: number): number {
+  const recent = times.filter((t) => now - t <= windowMs);
+  return (recent.length * 1000) / windowMs;
+}

@@ -1,0 +1,71 @@
+import { create } from "@bufbuild/protobuf";
+import {
+  type Camera,
+  CameraSchema,
+  Projection,
+  type Scene,
+  SceneSchema,
+  type TransferFunction as TransferFunctionMessage,
+  TransferFunctionSchema,
+} from "../net/gen/volcast/v1/scene_pb";
+import { scaled, type TransferFunction } from "../transfer/transfer_function";
+import { type Bounds, type Orbit, orbitFrom, poseFrom } from "../view/camera";
+import type { Vec3 } from "../view/vec3";
+import type { MapEdit } from "./app_state";
+
+const message = (v: Vec3) => ({ x: v[0], y: v[1], z: v[2] });
+const vector = (v: { x: number; y: number; z: number } | undefined): Vec3 =>
+  v ? [v.x, v.y, v.z] : [0, 0, 0];
+
+export function cameraMessage(orbit: Orbit, bounds: Bounds | undefined): Camera {
+  const pose = poseFrom(orbit, bounds);
+  return create(CameraSchema, {
+    eye: message(pose.eye),
+    center: message(pose.center),
+    up: message(pose.up),
+    projection: pose.orthographic ? Projection.ORTHOGRAPHIC : Projection.PERSPECTIVE,
+    fovyDegrees: pose.fovyDegrees,
+    orthographicHeight: pose.orthographicHeight,
+  });
+}
+
+export function orbitOf(camera: Camera): Orbit {
+  return orbitFrom({
+    eye: vector(camera.eye),
+    center: vector(camera.center),
+    up: vector(camera.up),
+    orthographic: camera.projection === Projection.ORTHOGRAPHIC,
+    fovyDegrees: camera.fovyDegrees,
+    orthographicHeight: camera.orthographicHeight,
+  });
+}
+
+export function mapMessage(map: TransferFunction): TransferFunctionMessage {
+  return create(TransferFunctionSchema, { points: map.map((p) => ({ ...p })) });
+}
+
+export function mapOf(message: TransferFunctionMessage | undefined): TransferFunction {
+  return (message?.points ?? []).map((p) => ({
+    value: p.value,
+    colour: { r: p.colour?.r ?? 0, g: p.colour?.g ?? 0, b: p.colour?.b ?? 0 },
+    extinction: p.extinction,
+  }));
+}
+
+/** The whole scene as it is sent: `base` with this camera, and this map in its first layer. */
+export function sceneMessage(
+  base: Scene,
+  orbit: Orbit,
+  bounds: Bounds | undefined,
+  edit: MapEdit,
+): Scene {
+  const transferFunction =
+    edit.map.length > 0 ? mapMessage(scaled(edit.map, edit.density)) : undefined;
+  return create(SceneSchema, {
+    ...base,
+    camera: cameraMessage(orbit, bounds),
+    layers: base.layers.map((layer, i) =>
+      i === 0 ? { ...layer, transferFunction: transferFunction ?? layer.transferFunction } : layer,
+    ),
+  });
+}

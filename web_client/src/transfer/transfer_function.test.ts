@@ -1,0 +1,81 @@
+import { describe, expect, it } from "vitest";
+import {
+  sampleAt,
+  scaled,
+  stretched,
+  type TransferFunction,
+  withColour,
+  withMovedPoint,
+  withoutPoint,
+  withPointAt,
+} from "./transfer_function";
+
+const black = { r: 0, g: 0, b: 0 };
+const white = { r: 1, g: 1, b: 1 };
+const ramp: TransferFunction = [
+  { value: 0, colour: black, extinction: 0 },
+  { value: 10, colour: white, extinction: 2 },
+];
+
+describe("transfer function", () => {
+  it("is piecewise linear and clamped outside", () => {
+    expect(sampleAt(ramp, 2.5).extinction).toBeCloseTo(0.5, 15);
+    expect(sampleAt(ramp, 2.5).colour.g).toBeCloseTo(0.25, 15);
+    expect(sampleAt(ramp, -1).extinction).toBe(0);
+    expect(sampleAt(ramp, 11).extinction).toBe(2);
+  });
+
+  it("gets a new point without changing anywhere", () => {
+    const { map, index } = withPointAt(ramp, 3);
+    expect(index).toBe(1);
+    expect(map).toHaveLength(3);
+    for (let v = -1; v <= 11; v += 0.37) {
+      expect(sampleAt(map, v).extinction).toBeCloseTo(sampleAt(ramp, v).extinction, 12);
+      expect(sampleAt(map, v).colour.r).toBeCloseTo(sampleAt(ramp, v).colour.r, 12);
+    }
+  });
+
+  it("selects the point that is already there", () => {
+    expect(withPointAt(ramp, 10)).toEqual({ map: ramp, index: 1 });
+  });
+
+  it("moves inner points between their neighbours and ends only up and down", () => {
+    const { map } = withPointAt(ramp, 3);
+    expect(withMovedPoint(map, 1, 99, 1)[1]).toMatchObject({ value: 10, extinction: 1 });
+    expect(withMovedPoint(map, 1, -99, -5)[1]).toMatchObject({ value: 0, extinction: 0 });
+    expect(withMovedPoint(map, 0, 5, 1)[0]).toMatchObject({ value: 0, extinction: 1 });
+    expect(withMovedPoint(map, 2, 5, 1)[2]).toMatchObject({ value: 10, extinction: 1 });
+    expect(withMovedPoint(map, 1, Number.NaN, Number.NaN)).toEqual(map);
+  });
+
+  it("deletes inner points and keeps its ends", () => {
+    const { map } = withPointAt(ramp, 3);
+    expect(withoutPoint(map, 1)).toEqual(ramp);
+    expect(withoutPoint(map, 0)).toBe(map);
+    expect(withoutPoint(map, 2)).toBe(map);
+  });
+
+  it("recolours one point only", () => {
+    const map = withColour(ramp, 0, white);
+    expect(map[0]?.colour).toEqual(white);
+    expect(map[1]).toBe(ramp[1]);
+  });
+
+  it("scales density and stretches over a new range", () => {
+    expect(scaled(ramp, 0.5)[1]?.extinction).toBe(1);
+    const wide = stretched(withPointAt(ramp, 5).map, -1, 3);
+    expect(wide.map((p) => p.value)).toEqual([-1, 1, 3]);
+    expect(wide[2]?.extinction).toBe(2);
+  });
+
+  it("draws a step where two points share a value", () => {
+    const step: TransferFunction = [
+      { value: 0, colour: black, extinction: 0 },
+      { value: 5, colour: black, extinction: 0 },
+      { value: 5, colour: white, extinction: 2 },
+      { value: 10, colour: white, extinction: 2 },
+    ];
+    expect(sampleAt(step, 4.999).extinction).toBe(0);
+    expect(sampleAt(step, 5.001).extinction).toBe(2);
+  });
+});

@@ -1,0 +1,95 @@
+import { type Colour, mixColour } from "./srgb";
+
+/** One point of the map: value in the field's unit, linear colour, extinction per world unit. */
+export interface Point {
+  readonly value: number;
+  readonly colour: Colour;
+  readonly extinction: number;
+}
+
+/** Piecewise linear in value, clamped outside; at least one point, values ascend. */
+export type TransferFunction = readonly Point[];
+
+const replaced = (map: TransferFunction, index: number, point: Point): TransferFunction =>
+  map.map((p, i) => (i === index ? point : p));
+
+const clamp = (x: number, low: number, high: number): number => Math.min(high, Math.max(low, x));
+
+/** What the map gives at `value`: exactly what the renderer draws there. */
+export function sampleAt(map: TransferFunction, value: number): Point {
+  const first = map[0];
+  const last = map[map.length - 1];
+  if (!first || !last) return { value, colour: { r: 1, g: 1, b: 1 }, extinction: 0 };
+  if (value <= first.value) return { ...first, value };
+  if (value >= last.value) return { ...last, value };
+  const at = map.findIndex((p) => p.value >= value);
+  const far = map[at] ?? last;
+  const near = map[at - 1] ?? first;
+  const span = far.value - near.value;
+  const t = span > 0 ? (value - near.value) / span : 1;
+  return {
+    value,
+    colour: mixColour(near.colour, far.colour, t),
+    extinction: near.extinction + t * (far.extinction - near.extinction),
+  };
+}
+
+/** Adds a point with the map's own value there, so that nothing changes until it is moved. */
+export function withPointAt(
+  map: TransferFunction,
+  value: number,
+): { map: TransferFunction; index: number } {
+  const same = map.findIndex((p) => p.value === value);
+  if (same >= 0) return { map, index: same };
+  const after = map.findIndex((p) => p.value > value);
+  const index = after < 0 ? map.length : after;
+  return { map: [...map.slice(0, index), sampleAt(map, value), ...map.slice(index)], index };
+}
+
+/** Removes an inner point; the ends stay, they carry the map's range. */
+export function withoutPoint(map: TransferFunction, index: number): TransferFunction {
+  return isEnd(map, index) ? map : map.filter((_, i) => i !== index);
+}
+
+export function isEnd(map: TransferFunction, index: number): boolean {
+  return index <= 0 || index >= map.length - 1;
+}
+
+/** Moves a point; inner points stay between their neighbours, ends keep their value. */
+export function withMovedPoint(
+  map: TransferFunction,
+  index: number,
+  value: number,
+  extinction: number,
+): TransferFunction {
+  const point = map[index];
+  if (!point) return map;
+  const before = map[index - 1];
+  const after = map[index + 1];
+  const kept =
+    before && after && Number.isFinite(value)
+      ? clamp(value, before.value, after.value)
+      : point.value;
+  const positive = Number.isFinite(extinction) ? Math.max(0, extinction) : point.extinction;
+  return replaced(map, index, { ...point, value: kept, extinction: positive });
+}
+
+export function withColour(map: TransferFunction, index: number, colour: Colour): TransferFunction {
+  const point = map[index];
+  return point ? replaced(map, index, { ...point, colour }) : map;
+}
+
+/** All extinctions times `factor`. */
+export function scaled(map: TransferFunction, factor: number): TransferFunction {
+  return map.map((p) => ({ ...p, extinction: p.extinction * factor }));
+}
+
+/** The same shape over another range of values. */
+export function stretched(map: TransferFunction, low: number, high: number): TransferFunction {
+  const first = map[0]?.value ?? 0;
+  const span = (map[map.length - 1]?.value ?? 0) - first;
+  return map.map((p, i) => {
+    const t = span > 0 ? (p.value - first) / span : i / Math.max(1, map.length - 1);
+    return { ...p, value: low + t * (high - low) };
+  });
+}

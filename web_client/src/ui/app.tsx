@@ -1,0 +1,104 @@
+import { type Signal, useSignal } from "@preact/signals";
+import type { AppState } from "../state/app_state";
+import { BadgeView } from "./badge";
+import { DataList } from "./data_list";
+import { Help } from "./help";
+import { Icon, IconButton } from "./icons";
+import { MapEditor } from "./map_editor";
+import { FieldPicker, ModelPicker } from "./model_picker";
+import { Notices } from "./notices";
+import type { AppPort } from "./port";
+import { Readout } from "./readout";
+
+interface Props {
+  readonly state: AppState;
+  readonly port: AppPort;
+  readonly helpOpen: Signal<boolean>;
+  /** The element that the picture is drawn in; it outlives every rendering of the panels. */
+  readonly picture: (host: HTMLElement | null) => void;
+}
+
+function Tools({ state, port, helpOpen }: Omit<Props, "picture">) {
+  const flat = state.orbit.value?.orthographic ?? false;
+  return (
+    <div class="tools" role="toolbar" aria-label="Picture">
+      <IconButton icon="reset" label="Show everything" shortcut="R" onClick={port.resetCamera} />
+      <IconButton
+        icon={flat ? "orthographic" : "perspective"}
+        label={flat ? "Orthographic: switch to perspective" : "Perspective: switch to orthographic"}
+        shortcut="P"
+        onClick={port.toggleProjection}
+      />
+      <IconButton icon="camera" label="Save the picture" onClick={port.screenshot} />
+      <IconButton
+        icon="fullscreen"
+        label="Full screen"
+        shortcut="F"
+        onClick={port.toggleFullscreen}
+      />
+      <IconButton
+        icon="help"
+        label="Controls"
+        shortcut="?"
+        onClick={() => {
+          helpOpen.value = true;
+        }}
+      />
+    </div>
+  );
+}
+
+function Footer({ state }: { readonly state: AppState }) {
+  const welcome = state.welcome.value;
+  return (
+    <footer class="footer">
+      <span>{welcome?.server || "Volcast"}</span>
+      {welcome?.sourceUrl && (
+        <a href={welcome.sourceUrl} target="_blank" rel="noreferrer">
+          Source code (AGPL)
+        </a>
+      )}
+    </footer>
+  );
+}
+
+/** The page: the picture, and beside or below it the panel. */
+export function App({ state, port, helpOpen, picture }: Props) {
+  const open = useSignal(matchMedia("(min-width: 720px)").matches);
+  return (
+    <div class="page" data-panel={open.value ? "open" : "closed"}>
+      <main class="stage">
+        <div class="picture-host" ref={picture} />
+        <Tools state={state} port={port} helpOpen={helpOpen} />
+        <Readout state={state} />
+        <Notices state={state} />
+      </main>
+      <aside class="panel" aria-label="Settings">
+        <header class="panel-head">
+          <h1>Volcast</h1>
+          <BadgeView state={state} port={port} />
+          <button
+            type="button"
+            class="icon-button sheet-toggle"
+            aria-expanded={open.value}
+            aria-controls="panel-body"
+            aria-label={open.value ? "Hide the settings" : "Show the settings"}
+            onClick={() => {
+              open.value = !open.value;
+            }}
+          >
+            <Icon name={open.value ? "down" : "up"} />
+          </button>
+        </header>
+        <div id="panel-body" class="panel-body">
+          <DataList state={state} port={port} />
+          <ModelPicker state={state} />
+          <FieldPicker state={state} />
+          <MapEditor state={state} />
+          <Footer state={state} />
+        </div>
+      </aside>
+      <Help open={helpOpen} />
+    </div>
+  );
+}

@@ -1,0 +1,104 @@
+import { type DatasetInfo, DatasetKind, DatasetState } from "../net/gen/volcast/v1/session_pb";
+import type { AppState } from "../state/app_state";
+import { formatBytes, formatCount } from "./format";
+import { Icon } from "./icons";
+import type { AppPort } from "./port";
+
+function describe(info: DatasetInfo): string {
+  const size = info.bytes > 0n ? formatBytes(Number(info.bytes)) : "";
+  const parts: string[] = [];
+  if (info.kind === DatasetKind.MESH) {
+    parts.push(`Mesh, ${formatCount(Number(info.cells))} cells`);
+  } else if (info.kind === DatasetKind.VOLUME) {
+    parts.push(`Volume, ${info.voxels.join(" × ")}`);
+  } else if (info.state === DatasetState.LISTED) {
+    parts.push("Not opened yet");
+  }
+  if (size) parts.push(size);
+  return parts.join(" · ");
+}
+
+function Progress({ info }: { readonly info: DatasetInfo }) {
+  const percent = Math.round(100 * info.progress);
+  return (
+    <div class="dataset-progress">
+      <progress max={100} value={percent} aria-label={`Importing ${info.name}`} />
+      <span>
+        {info.stage || "importing"}, {percent} %
+      </span>
+    </div>
+  );
+}
+
+interface RowProps {
+  readonly info: DatasetInfo;
+  readonly shown: boolean;
+  readonly pending: boolean;
+  readonly port: AppPort;
+}
+
+function Row({ info, shown, pending, port }: RowProps) {
+  const failed = info.state === DatasetState.FAILED;
+  const choose = (): void => (shown ? undefined : port.openDataset(info.id));
+  return (
+    <li class="dataset" data-shown={shown ? "" : undefined} data-dataset={info.id}>
+      <button type="button" class="dataset-choose" aria-pressed={shown} onClick={choose}>
+        <span class="dataset-name">{info.name || info.id}</span>
+        <span class="dataset-note">
+          {pending && info.state !== DatasetState.IMPORTING ? "Opening" : describe(info)}
+        </span>
+      </button>
+      {info.state === DatasetState.IMPORTING && <Progress info={info} />}
+      {failed && (
+        <p class="dataset-error">
+          <Icon name="warning" /> <span>{info.error || "The import failed."}</span>
+          <button type="button" class="text-button" onClick={() => port.importAgain(info.id)}>
+            Import again
+          </button>
+        </p>
+      )}
+      {info.warnings.length > 0 && (
+        <details class="dataset-warnings">
+          <summary>
+            {info.warnings.length === 1 ? "1 remark" : `${info.warnings.length} remarks`}
+          </summary>
+          <ul>
+            {info.warnings.map((warning) => (
+              <li key={warning}>{warning}</li>
+            ))}
+          </ul>
+        </details>
+      )}
+    </li>
+  );
+}
+
+/** What the server offers, with the state of each; one is shown. */
+export function DataList({ state, port }: { readonly state: AppState; readonly port: AppPort }) {
+  const datasets = state.datasets.value;
+  const shown = state.dataset.value?.id;
+  const pending = state.pendingDataset.value;
+  return (
+    <section class="section" aria-labelledby="data-heading">
+      <h2 id="data-heading">Data</h2>
+      {datasets.length === 0 && (
+        <p class="hint">
+          {state.connection.value.kind === "open"
+            ? "The server's folder holds nothing that it can read."
+            : "The list comes with the connection."}
+        </p>
+      )}
+      <ul class="datasets">
+        {datasets.map((info) => (
+          <Row
+            key={info.id}
+            info={info}
+            shown={info.id === shown}
+            pending={info.id === pending}
+            port={port}
+          />
+        ))}
+      </ul>
+    </section>
+  );
+}

@@ -1,0 +1,59 @@
+import type { Signal } from "@preact/signals";
+import { useEffect, useRef } from "preact/hooks";
+import { IconButton } from "./icons";
+
+const kRows: readonly (readonly [keys: string, what: string])[] = [
+  ["Drag, arrows", "Turn"],
+  ["Right or Shift drag, Shift arrows", "Move"],
+  ["Wheel, + and −", "Closer and farther"],
+  ["One finger, two fingers", "Turn; move and pinch"],
+  ["Double click, R or 0", "Show everything"],
+  ["1 2 3 or X Y Z", "Look along an axis; with Shift from behind"],
+  ["P", "Perspective or orthographic"],
+  ["F", "Full screen"],
+  ["Ctrl Z, Ctrl Shift Z", "Undo and redo in the map"],
+  ["?", "This help"],
+];
+
+const kMapRows: readonly (readonly [keys: string, what: string])[] = [
+  ["Double click", "Add a point, or delete the one under it"],
+  ["Drag, arrows", "Move a point; with Shift in small steps"],
+  ["Delete, middle click", "Delete the point"],
+];
+
+function Keys({ rows }: { readonly rows: typeof kRows }) {
+  return (
+    <dl class="keys">
+      {rows.map(([keys, what]) => (
+        <div key={keys}>
+          <dt>{keys}</dt>
+          <dd>{what}</dd>
+        </div>
+      ))}
+    </dl>
+  );
+}
+
+/** Everything that hands can do here. */
+export function Help({ open }: { readonly open: Signal<boolean> }) {
+  const dialog = useRef<HTMLDialogElement>(null);
+  useEffect(() => {
+    if (open.value) dialog.current?.showModal();
+    else dialog.current?.close();
+  }, [open.value]);
+  const close = (): void => {
+    open.value = false;
+  };
+  return (
+    <dialog ref={dialog} class="help" aria-labelledby="help-heading" onClose={close}>
+      <header>
+        <h2 id="help-heading">Controls</h2>
+        <IconButton icon="close" label="Close" onClick={close} />
+      </header>
+      <h3>Picture</h3>
+      <Keys rows={kRows} />
+      <h3>Colours and opacity</h3>
+      <Keys rows={kMapRows} />
+    </dialog>
+  );
+}

@@ -1,0 +1,52 @@
+const kPaths = {
+  reset: "M4 10a6 6 0 1 1 2 4.5M4 10l-1.6-2.2M4 10l2.4-1.5",
+  perspective: "M3 5l14-2v14L3 15zM10 4v12M3 10h14",
+  orthographic: "M3.5 3.5h13v13h-13zM10 3.5v13M3.5 10h13",
+  camera: "M3 6.5h3l1.4-2h5.2l1.4 2h3v9.5H3zM10 13.6a2.7 2.7 0 1 0 0-5.4 2.7 2.7 0 0 0 0 5.4z",
+  fullscreen: "M3.5 7.5v-4h4M12.5 3.5h4v4M16.5 12.5v4h-4M7.5 16.5h-4v-4",
+  help: "M7.4 7.4a2.7 2.7 0 1 1 3.8 2.5c-.8.4-1.2.9-1.2 1.8M10 14.6v.1",
+  undo: "M7 4L3.5 7.5 7 11M3.8 7.5h7.7a4.5 4.5 0 0 1 0 9H8",
+  redo: "M13 4l3.5 3.5L13 11M16.2 7.5H8.5a4.5 4.5 0 0 0 0 9H12",
+  add: "M10 4.5v11M4.5 10h11",
+  remove: "M4.5 6h11M8 6V4.2h4V6M6 6l.7 10h6.6L14 6",
+  close: "M5.5 5.5l9 9M14.5 5.5l-9 9",
+  up: "M5 12.5l5-5 5 5",
+  down: "M5 7.5l5 5 5-5",
+  warning: "M10 3.2L17.5 16.5h-15zM10 8.2v4M10 14.3v.1",
+} as const;
+
+export type IconName = keyof typeof kPaths;
+
+/** A drawing beside or instead of a label; always hidden from assistive technology. */
+export function Icon({ name }: { readonly name: IconName }) {
+  return (
+    <svg class="icon" viewBox="0 0 20 20" aria-hidden="true" focusable="false">
+      <path d={kPaths[name]} />
+    </svg>
+  );
+}
+
+interface IconButtonProps {
+  readonly icon: IconName;
+  readonly label: string;
+  readonly onClick: () => void;
+  readonly disabled?: boolean;
+  readonly shortcut?: string;
+}
+
+/** A square button whose name is shown when it is pointed at. */
+export function IconButton({ icon, label, onClick, disabled, shortcut }: IconButtonProps) {
+  return (
+    <button
+      type="button"
+      class="icon-button"
+      aria-label={label}
+      aria-keyshortcuts={shortcut}
+      title={shortcut ? `${label} (${shortcut})` : label}
+      disabled={disabled}
+      onClick={onClick}
+    >
+      <Icon name={icon} />
+    </button>
+  );
+}

@@ -1,0 +1,146 @@
+import { opacityFromExtinction } from "../transfer/opacity";
+import { toHex } from "../transfer/srgb";
+import { sampleAt, type TransferFunction } from "../transfer/transfer_function";
+
+/** The editor's box in CSS pixels: the curve above, the colour bar below. */
+export interface PlotBox {
+  readonly width: number;
+  readonly low: number;
+  readonly high: number;
+}
+
+export const kPlotHeight = 136;
+export const kBarGap = 10;
+export const kBarHeight = 14;
+export const kPadX = 10;
+const kPadTop = 10;
+
+export function xOf(box: PlotBox, value: number): number {
+  const t = (value - box.low) / (box.high - box.low);
+  return kPadX + t * (box.width - 2 * kPadX);
+}
+
+export function valueAt(box: PlotBox, x: number): number {
+  const t = (x - kPadX) / (box.width - 2 * kPadX);
+  return box.low + Math.min(1, Math.max(0, t)) * (box.high - box.low);
+}
+
+export function yOf(opacity: number): number {
+  return kPadTop + (1 - opacity) * (kPlotHeight - kPadTop);
+}
+
+/** How far a drag of `dy` CSS pixels changes the opacity. */
+export function opacityOfDrag(dy: number): number {
+  return -dy / (kPlotHeight - kPadTop);
+}
+
+/** The range that the editor shows: the field's, and the map's where that is wider. */
+export function rangeOf(
+  map: TransferFunction,
+  fieldMin: number,
+  fieldMax: number,
+): { low: number; high: number } {
+  const low = Math.min(fieldMin, map[0]?.value ?? fieldMin);
+  const high = Math.max(fieldMax, map[map.length - 1]?.value ?? fieldMax);
+  return high > low ? { low, high } : { low: low - 0.5, high: high + 0.5 };
+}
+
+/** Heights in [0, 1] of the histogram's bars; counts differ by powers, so by their logarithm. */
+export function barHeights(counts: readonly number[]): number[] {
+  const most = Math.log1p(Math.max(0, ...counts));
+  return counts.map((count) => (most > 0 ? Math.log1p(count) / most : 0));
+}
+
+export interface PlotContent {
+  readonly box: PlotBox;
+  /** With the density that is drawn. */
+  readonly map: TransferFunction;
+  readonly referenceLength: number;
+  readonly histogram: readonly number[];
+  readonly fieldMin: number;
+  readonly fieldMax: number;
+  readonly showsOpacity: boolean;
+}
+
+interface Inks {
+  readonly bars: string;
+  readonly grid: string;
+  readonly curve: string;
+}
+
+function drawGrid(context: CanvasRenderingContext2D, { box }: PlotContent, ink: string): void {
+  context.fillStyle = ink;
+  for (const opacity of [0, 0.25, 0.5, 0.75, 1]) {
+    context.fillRect(kPadX, Math.round(yOf(opacity)) - 0.5, box.width - 2 * kPadX, 1);
+  }
+}
+
+function drawHistogram(context: CanvasRenderingContext2D, content: PlotContent, ink: string): void {
+  const { box, histogram, fieldMin, fieldMax } = content;
+  const bin = (fieldMax - fieldMin) / histogram.length;
+  if (!(bin > 0)) return;
+  context.fillStyle = ink;
+  barHeights(histogram).forEach((height, i) => {
+    const left = xOf(box, fieldMin + i * bin);
+    const right = xOf(box, fieldMin + (i + 1) * bin);
+    const top = yOf(0.92 * height);
+    context.fillRect(left, top, right - left, kPlotHeight - top);
+  });
+}
+
+/** One column a device pixel: colour and opacity as they are, curved where the map is straight. */
+function drawMap(context: CanvasRenderingContext2D, content: PlotContent, scale: number): void {
+  const { box, map, referenceLength, showsOpacity } = content;
+  const step = 1 / scale;
+  for (let x = kPadX; x < box.width - kPadX; x += step) {
+    const here = sampleAt(map, valueAt(box, x + step / 2));
+    context.fillStyle = toHex(here.colour);
+    context.fillRect(x, kPlotHeight + kBarGap, step, kBarHeight);
+    if (!showsOpacity) continue;
+    const top = yOf(opacityFromExtinction(here.extinction, referenceLength));
+    context.globalAlpha = 0.5;
+    context.fillRect(x, top, step, kPlotHeight - top);
+    context.globalAlpha = 1;
+  }
+}
+
+function drawCurve(context: CanvasRenderingContext2D, content: PlotContent, ink: string): void {
+  const { box, map, referenceLength } = content;
+  context.strokeStyle = ink;
+  context.lineWidth = 1.5;
+  context.lineJoin = "round";
+  context.beginPath();
+  const lineTo = (value: number, extinction: number): void =>
+    context.lineTo(xOf(box, value), yOf(opacityFromExtinction(extinction, referenceLength)));
+  lineTo(box.low, sampleAt(map, box.low).extinction);
+  map.forEach((point, i) => {
+    const before = map[i - 1];
+    for (let k = 1; before && k < 16; k += 1) {
+      const value = before.value + ((point.value - before.value) * k) / 16;
+      lineTo(value, before.extinction + ((point.extinction - before.extinction) * k) / 16);
+    }
+    lineTo(point.value, point.extinction);
+  });
+  lineTo(box.high, sampleAt(map, box.high).extinction);
+  context.stroke();
+}
+
+/** Draws the whole plot at `scale` device pixels a CSS pixel. */
+export function drawPlot(canvas: HTMLCanvasElement, content: PlotContent, scale: number): void {
+  const height = kPlotHeight + kBarGap + kBarHeight;
+  canvas.width = Math.round(content.box.width * scale);
+  canvas.height = Math.round(height * scale);
+  const context = canvas.getContext("2d");
+  if (!context) return;
+  const style = getComputedStyle(canvas);
+  const inks: Inks = {
+    bars: style.getPropertyValue("--plot-bars"),
+    grid: style.getPropertyValue("--plot-grid"),
+    curve: style.getPropertyValue("--plot-curve"),
+  };
+  context.setTransform(scale, 0, 0, scale, 0, 0);
+  drawGrid(context, content, inks.grid);
+  drawHistogram(context, content, inks.bars);
+  drawMap(context, content, scale);
+  if (content.showsOpacity) drawCurve(context, content, inks.curve);
+}

@@ -1,0 +1,170 @@
+import type { Signal } from "@preact/signals";
+import { useRef } from "preact/hooks";
+import { changeMap, endGesture } from "../state/actions";
+import type { AppState } from "../state/app_state";
+import {
+  extinctionFromOpacity,
+  kMaxDrawnOpacity,
+  opacityFromExtinction,
+} from "../transfer/opacity";
+import { toHex } from "../transfer/srgb";
+import { isEnd, type Point, withMovedPoint, withoutPoint } from "../transfer/transfer_function";
+import { formatNumber } from "./format";
+import {
+  kBarGap,
+  kBarHeight,
+  kPlotHeight,
+  opacityOfDrag,
+  type PlotBox,
+  valueAt,
+  xOf,
+  yOf,
+} from "./map_plot";
+
+interface Props {
+  readonly state: AppState;
+  readonly box: PlotBox;
+  readonly selected: Signal<number>;
+  readonly showsOpacity: boolean;
+}
+
+interface Drag {
+  readonly index: number;
+  readonly gesture: string;
+  readonly start: Point;
+  readonly x: number;
+  readonly y: number;
+}
+
+let lastDrag = 0;
+
+/** Opacity over the reference length, as drawn, of a point of the map. */
+function opacityOf(state: AppState, point: Point): number {
+  const drawn = point.extinction * state.edit.value.present.density;
+  return opacityFromExtinction(drawn, state.referenceLength.value);
+}
+
+/** The extinction that the map must hold for `opacity` to be drawn. */
+export function extinctionFor(state: AppState, opacity: number): number {
+  const bounded = Math.min(kMaxDrawnOpacity, Math.max(0, opacity));
+  const { density } = state.edit.value.present;
+  return extinctionFromOpacity(bounded, state.referenceLength.value) / density;
+}
+
+/** Deletes a point; the one before it is selected. */
+export function deletePoint(state: AppState, selected: Signal<number>, index: number): void {
+  const { map } = state.edit.value.present;
+  if (isEnd(map, index)) return;
+  changeMap(state, withoutPoint(map, index));
+  selected.value = Math.max(0, index - 1);
+}
+
+/** Moves by arrow keys: a hundredth of the range or of the opacity, a tenth of that with Shift. */
+function nudge(state: AppState, box: PlotBox, index: number, dx: number, dy: number): void {
+  const { map } = state.edit.value.present;
+  const point = map[index];
+  if (!point) return;
+  const value = point.value + dx * (box.high - box.low);
+  const extinction =
+    dy === 0 ? point.extinction : extinctionFor(state, opacityOf(state, point) + dy);
+  changeMap(state, withMovedPoint(map, index, value, extinction), `nudge ${index}`);
+}
+
+const kArrows: Readonly<Record<string, readonly [number, number]>> = {
+  ArrowLeft: [-1, 0],
+  ArrowRight: [1, 0],
+  ArrowUp: [0, 1],
+  ArrowDown: [0, -1],
+};
+
+/** The map's points: buttons that are dragged, or moved with the keyboard. */
+export function MapPoints({ state, box, selected, showsOpacity }: Props) {
+  const drag = useRef<Drag | undefined>(undefined);
+  const { map } = state.edit.value.present;
+
+  const keyDown = (index: number, event: KeyboardEvent): void => {
+    const arrow = kArrows[event.key];
+    if (arrow && !event.ctrlKey && !event.metaKey) {
+      const step = event.shiftKey ? 0.001 : 0.01;
+      nudge(state, box, index, arrow[0] * step, showsOpacity ? arrow[1] * step : 0);
+      event.preventDefault();
+    } else if (event.key === "Delete" || event.key === "Backspace") {
+      const buttons = (event.currentTarget as HTMLElement).parentElement?.children;
+      deletePoint(state, selected, index);
+      (buttons?.[selected.value] as HTMLElement | undefined)?.focus();
+      event.preventDefault();
+    }
+  };
+
+  const pressed = (index: number, event: PointerEvent): void => {
+    const start = map[index];
+    if (event.button === 1) {
+      event.preventDefault();
+      deletePoint(state, selected, index);
+    } else if (event.button === 0 && start) {
+      (event.currentTarget as HTMLElement).setPointerCapture(event.pointerId);
+      lastDrag += 1;
+      selected.value = index;
+      const { clientX: x, clientY: y } = event;
+      drag.current = { index, gesture: `drag ${lastDrag}`, start, x, y };
+    }
+  };
+
+  const moved = (event: PointerEvent): void => {
+    const now = drag.current;
+    if (!now) return;
+    const dx = event.clientX - now.x;
+    const dy = event.clientY - now.y;
+    if (dx === 0 && dy === 0 && state.edit.value.gesture !== now.gesture) return;
+    const value = valueAt(box, xOf(box, now.start.value) + dx);
+    const begun = opacityOf(state, now.start);
+    const extinction =
+      dy === 0 || !showsOpacity
+        ? now.start.extinction
+        : extinctionFor(state, begun + opacityOfDrag(dy));
+    const present = state.edit.value.present.map;
+    changeMap(state, withMovedPoint(present, now.index, value, extinction), now.gesture);
+  };
+
+  const released = (): void => {
+    drag.current = undefined;
+    endGesture(state);
+  };
+
+  const barMiddle = kPlotHeight + kBarGap + kBarHeight / 2;
+  return (
+    <div class="map-points">
+      {map.map((point, index) => {
+        const opacity = opacityOf(state, point);
+        const top = showsOpacity ? yOf(Math.min(opacity, 1)) : barMiddle;
+        const says = `Point ${index + 1} of ${map.length}: value ${formatNumber(point.value)}, opacity ${formatNumber(100 * opacity, 3)} %`;
+        return (
+          <button
+            // biome-ignore lint/suspicious/noArrayIndexKey: a point is its place in the map
+            key={index}
+            type="button"
+            class="map-point"
+            data-index={index}
+            data-end={isEnd(map, index) ? "" : undefined}
+            aria-label={says}
+            aria-pressed={index === selected.value}
+            style={{ left: xOf(box, point.value), top, "--point": toHex(point.colour) }}
+            onFocus={() => {
+              selected.value = index;
+            }}
+            onKeyDown={(e) => keyDown(index, e)}
+            onKeyUp={() => endGesture(state)}
+            onPointerDown={(e) => pressed(index, e)}
+            onPointerMove={moved}
+            onPointerUp={released}
+            onPointerCancel={released}
+            onDblClick={(e) => {
+              e.stopPropagation();
+              deletePoint(state, selected, index);
+            }}
+          />
+        );
+      })}
+    </div>
+  );
+}

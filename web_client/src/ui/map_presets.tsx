@@ -1,0 +1,84 @@
+import { changeDensity, changeMap, endGesture } from "../state/actions";
+import type { AppState } from "../state/app_state";
+import { type ColourMap, kColourMaps } from "../transfer/colour_maps";
+import { kOpacityShapes, withColourMap, withOpacityShape } from "../transfer/presets";
+import { toHex } from "../transfer/srgb";
+import { formatNumber } from "./format";
+
+interface Props {
+  readonly state: AppState;
+}
+
+const gradient = (map: ColourMap): string =>
+  `linear-gradient(90deg in srgb-linear, ${map.stops.map(toHex).join(", ")})`;
+
+/** Ready-made colours over the map's range; the opacity stays. */
+export function ColourPresets({ state }: Props) {
+  return (
+    <fieldset class="swatches">
+      <legend>Colours</legend>
+      {kColourMaps.map((colours) => (
+        <button
+          key={colours.id}
+          type="button"
+          class="swatch"
+          title={colours.name}
+          aria-label={`${colours.name} colours`}
+          style={{ backgroundImage: gradient(colours) }}
+          onClick={() => changeMap(state, withColourMap(state.edit.value.present.map, colours))}
+        />
+      ))}
+    </fieldset>
+  );
+}
+
+/** Ready-made opacity curves; the colours stay. */
+export function OpacityPresets({ state }: Props) {
+  const apply = (id: string): void => {
+    const shape = kOpacityShapes.find((s) => s.id === id);
+    const { map } = state.edit.value.present;
+    if (shape) changeMap(state, withOpacityShape(map, shape, state.referenceLength.value));
+  };
+  return (
+    <label class="line">
+      <span>Opacity curve</span>
+      <select
+        value=""
+        onChange={(e) => {
+          apply(e.currentTarget.value);
+          e.currentTarget.value = "";
+        }}
+      >
+        <option value="">Choose</option>
+        {kOpacityShapes.map((shape) => (
+          <option key={shape.id} value={shape.id}>
+            {shape.name}
+          </option>
+        ))}
+      </select>
+    </label>
+  );
+}
+
+/** All extinctions at once, over four powers of ten. */
+export function DensitySlider({ state }: Props) {
+  const { density } = state.edit.value.present;
+  return (
+    <label class="density">
+      <span>
+        Density <output>× {formatNumber(density, 3)}</output>
+      </span>
+      <input
+        type="range"
+        min={-2}
+        max={2}
+        step={0.01}
+        value={Math.log10(density)}
+        aria-valuetext={`times ${formatNumber(density, 3)}`}
+        onInput={(e) => changeDensity(state, 10 ** Number(e.currentTarget.value), "density")}
+        onChange={() => endGesture(state)}
+        onDblClick={() => changeDensity(state, 1)}
+      />
+    </label>
+  );
+}

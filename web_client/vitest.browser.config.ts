@@ -1,0 +1,23 @@
+import { fileURLToPath } from "node:url";
+import { defineConfig } from "vitest/config";
+
+const installed = (name: string) => fileURLToPath(new URL(`node_modules/${name}`, import.meta.url));
+
+/** The tests in ../tests/browser: a real server and a real Chromium, one test after the other. */
+export default defineConfig({
+  root: fileURLToPath(new URL("../tests/browser", import.meta.url)),
+  resolve: {
+    alias: {
+      "playwright-core": installed("playwright-core"),
+      "axe-core": installed("axe-core"),
+      vitest: installed("vitest"),
+    },
+  },
+  test: {
+    include: ["*.test.ts"],
+    environment: "node",
+    fileParallelism: false,
+    testTimeout: 120_000,
+    hookTimeout: 120_000,
+  },
+});
