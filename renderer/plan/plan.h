@@ -21,6 +21,7 @@ struct LayerPlan {
     std::string layer;
     Evaluator evaluator = Evaluator::kMeshWalk;
     std::string integrator;  ///< As in the frame header: "average", "march", or empty.
+    double stepWorld = 0.0;  ///< Voxels: the longest distance between samples, world units.
     std::vector<Effect> effects;
     bool drawn = true;  ///< False where nothing can be seen (hidden, transparent everywhere).
 
@@ -33,6 +34,10 @@ struct FramePlan {
     std::string id;                 ///< Equal for equal plans: a short hash of all below.
     std::vector<LayerPlan> layers;  ///< In the scene's order.
 };
+
+/// Most samples on one ray of the volume march. llvmpipe ends all loops of a pixel after 65,535
+/// iterations without a word; what is left is for passing over bricks.
+inline constexpr int kMaxRaySamples = 60'000;
 
 /// `scene` must be valid against `summaries`.
 FramePlan plan(const scene::Scene& scene, const scene::Summaries& summaries);

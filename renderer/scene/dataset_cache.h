@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "renderer/base/result.h"
+#include "renderer/data/dataset.h"
+#include "renderer/mesh/walk.h"
+#include "renderer/scene/scene.h"
+#include "renderer/volume/march.h"
+
+namespace volcast::scene {
+
+/// One dataset on the host, and those of its parts that some scene has needed on the GPU.
+class CachedDataset {
+public:
+    CachedDataset(data::Dataset dataset, std::uint64_t generation);
+
+    [[nodiscard]] const data::Dataset& data() const noexcept { return data_; }
+    [[nodiscard]] const data::DatasetSummary& summary() const noexcept { return summary_; }
+    /// Differs between datasets that had the same id one after the other.
+    [[nodiscard]] std::uint64_t generation() const noexcept { return generation_; }
+
+    /// Uploads on the first call. Needs a mesh. Errors: as mesh::MeshGpu::upload.
+    Result<const mesh::MeshGpu*> mesh(gpu::Device& device);
+    /// The field and time step of `layer`, uploaded when first asked for. Needs a mesh with fields.
+    /// Pointers stay good until a call with a larger `frame`. Errors: as mesh::FieldGpu::upload.
+    Result<const mesh::FieldGpu*> field(gpu::Device& device, const Layer& layer,
+                                        std::uint64_t frame);
+    /// The channel of `layer`. Needs a volume. Errors: as volume::ChannelGpu::upload.
+    Result<const volume::ChannelGpu*> channel(gpu::Device& device, const Layer& layer,
+                                              std::uint64_t frame);
+    /// How the values of `layer`'s field sit on the mesh.
+    [[nodiscard]] data::Association association(const Layer& layer) const;
+
+private:
+    template <class T>
+    struct Kept {
+        T part;
+        std::uint64_t frame = 0;  ///< Last used in.
+    };
+    using FieldKey = std::pair<std::string, int>;  ///< Name and time step.
+
+    data::Dataset data_;
+    data::DatasetSummary summary_;
+    std::uint64_t generation_;
+    std::unique_ptr<mesh::MeshGpu> mesh_;
+    std::map<FieldKey, Kept<std::unique_ptr<mesh::FieldGpu>>> fields_;
+    std::map<std::string, Kept<volume::ChannelGpu>> channels_;
+};
+
+}  // namespace volcast::scene

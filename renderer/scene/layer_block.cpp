@@ -1,0 +1,105 @@
+#include "renderer/scene/layer_block.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace volcast::scene {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+/// Half of what the picture spans: at depth 1 (perspective) or anywhere (orthographic).
+glm::dvec2 halfExtent(const Camera& camera, PictureSize size) {
+    const double half = camera.projection == Projection::kPerspective
+                            ? std::tan(0.5 * camera.fovyDegrees * kPi / 180.0)
+                            : 0.5 * camera.orthographicHeight;
+    return {half * size.x / size.y, half};
+}
+
+glm::vec4 vector(const glm::dvec3& v, double w = 0.0) {
+    return {glm::vec3(v), w};
+}
+
+/// Rows of a matrix, turned into GL's columns.
+glm::mat4 fromRows(const glm::dvec4& x, const glm::dvec4& y, const glm::dvec4& z,
+                   const glm::dvec4& w) {
+    return glm::mat4(glm::transpose(glm::dmat4(x, y, z, w)));
+}
+
+glm::mat4 clipFromData(const Camera& camera, const CameraFrame& axes, const glm::dvec2& half,
+                       const DepthRange& depths, const glm::dvec3& eye) {
+    const auto row = [&](const glm::dvec3& axis, double scale) {
+        return glm::dvec4(axis * scale, -glm::dot(axis, eye) * scale);
+    };
+    const glm::dvec4 right = row(axes.right, 1.0 / half.x), up = row(axes.up, 1.0 / half.y);
+    const glm::dvec4 depth = row(axes.forward, 1.0);
+    if (camera.projection == Projection::kPerspective) {
+        // Infinite and reversed: clip z / w = near / depth.
+        const double near = std::max(depths.nearest * 0.99, depths.farthest * 1e-6);
+        return fromRows(right, up, {0.0, 0.0, 0.0, near}, depth);
+    }
+    const double span = depths.farthest - depths.nearest;
+    const glm::dvec4 reversed = (glm::dvec4(0.0, 0.0, 0.0, depths.farthest) - depth) / span;
+    return fromRows(right, up, reversed, {0.0, 0.0, 0.0, 1.0});
+}
+
+glm::mat4 gridFromData(const data::Volume& volume) {
+    const glm::dmat3 axes = volume.direction;
+    glm::dmat4 matrix{1.0};
+    for (int axis = 0; axis < 3; ++axis) {
+        for (int i = 0; i < 3; ++i) matrix[i][axis] = axes[axis][i] / volume.spacing[axis];
+    }
+    return glm::mat4(matrix);
+}
+
+}  // namespace
+
+DepthRange depthRange(const Camera& camera, std::span<const data::Box> boxes) {
+    const CameraFrame axes = frame(camera);
+    double nearest = std::numeric_limits<double>::infinity(), farthest = 0.0;
+    for (const data::Box& box : boxes) {
+        for (int corner = 0; corner < 8; ++corner) {
+            const glm::dvec3 point((corner & 1) != 0 ? box.max.x : box.min.x,
+                                   (corner & 2) != 0 ? box.max.y : box.min.y,
+                                   (corner & 4) != 0 ? box.max.z : box.min.z);
+            const double depth = glm::dot(point - camera.eye, axes.forward);
+            nearest = std::min(nearest, depth);
+            farthest = std::max(farthest, depth);
+        }
+    }
+    if (!(farthest > 0.0)) return {};
+    // A hair before the first corner, so that its own rounding is no hole.
+    const double margin = 1e-6 * (farthest - std::max(nearest, 0.0)) + 1e-12 * farthest;
+    nearest = std::max(nearest - margin, 0.0);
+    return {.nearest = nearest, .farthest = std::max(farthest + margin, nearest + margin)};
+}
+
+LayerBlock layerBlock(const Camera& camera, PictureSize size, const DepthRange& depths,
+                      const Layer& layer, const data::Dataset& dataset, double stepWorld) {
+    const data::Volume* volume = std::get_if<data::Volume>(&dataset);
+    const glm::dvec3 origin =
+        volume != nullptr ? volume->origin : std::get<data::Mesh>(dataset).origin;
+    const CameraFrame axes = frame(camera);
+    const glm::dvec2 half = halfExtent(camera, size);
+    const glm::dvec3 eye = camera.eye - origin;
+    const bool perspective = camera.projection == Projection::kPerspective;
+    const double startScale = perspective ? depths.nearest : 1.0;
+    const double directionScale = perspective ? 1.0 : 0.0;
+    LayerBlock block{};
+    block.rayStart = vector(eye + depths.nearest * axes.forward, depths.nearest);
+    block.rayStartRight = vector(axes.right * (half.x * startScale));
+    block.rayStartUp = vector(axes.up * (half.y * startScale));
+    block.rayDirection = vector(axes.forward, perspective ? 1.0 : 0.0);
+    block.rayDirectionRight = vector(axes.right * (half.x * directionScale));
+    block.rayDirectionUp = vector(axes.up * (half.y * directionScale));
+    block.viewport = {size.x, size.y, 1.0F / static_cast<float>(size.x),
+                      1.0F / static_cast<float>(size.y)};
+    block.clipFromData = clipFromData(camera, axes, half, depths, eye);
+    block.gridFromData = volume != nullptr ? gridFromData(*volume) : glm::mat4(1.0F);
+    block.grid = volume != nullptr ? glm::vec4(glm::vec3(volume->size), stepWorld) : glm::vec4(0);
+    block.surfaceColour = glm::vec4(layer.surfaceColour, 1.0F);
+    return block;
+}
+
+}  // namespace volcast::scene

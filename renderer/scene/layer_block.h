@@ -1,0 +1,31 @@
+#pragma once
+
+#include <span>
+
+#include <glm/glm.hpp>
+
+#include "renderer/data/dataset.h"
+#include "renderer/plan/plan.h"
+#include "renderer/scene/scene.h"
+#include "renderer/shading/shared.h"
+
+namespace volcast::scene {
+
+using shading::shared::LayerBlock;
+
+/// Depths along the view direction that hold all data of a scene, world units.
+struct DepthRange {
+    double nearest = 0.0;   ///< Where rays start: 0 or more.
+    double farthest = 1.0;  ///< More than `nearest`.
+    friend bool operator==(const DepthRange&, const DepthRange&) = default;
+};
+
+/// Of the boxes in front of the eye's plane; {0, 1} where there are none.
+DepthRange depthRange(const Camera& camera, std::span<const data::Box> boxes);
+
+/// The block of one layer; see shaders/shared/layer_block.glsl. Computed in double relative to the
+/// dataset's own origin, so that neither is rounded far away from the world's origin.
+LayerBlock layerBlock(const Camera& camera, PictureSize size, const DepthRange& depths,
+                      const Layer& layer, const data::Dataset& dataset, double stepWorld);
+
+}  // namespace volcast::scene

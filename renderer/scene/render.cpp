@@ -1,0 +1,383 @@
+#include "renderer/scene/render.h"
+
+#include <algorithm>
+#include <map>
+
+#include "renderer/gpu/timer.h"
+#include "renderer/plan/effects.h"
+#include "renderer/scene/dataset_cache.h"
+#include "renderer/scene/scene_diff.h"
+#include "renderer/scene/validate.h"
+#include "renderer/scene/view.h"
+
+namespace volcast::scene {
+namespace {
+
+// Rays that meet no opaque layer end nowhere.
+constexpr float kNoSurface = 3.0e38F;
+
+/// How much of a view's last picture has to be made again.
+enum class Work { kNothing, kResolve, kAll };
+
+Counters operator-(const Counters& after, const Counters& before) {
+    return {.bufferUploads = after.bufferUploads - before.bufferUploads,
+            .textureUploads = after.textureUploads - before.textureUploads,
+            .uploadedBytes = after.uploadedBytes - before.uploadedBytes,
+            .programsBuilt = after.programsBuilt - before.programsBuilt,
+            .drawCalls = after.drawCalls - before.drawCalls,
+            .framesDrawn = after.framesDrawn - before.framesDrawn};
+}
+
+/// One layer that is drawn, and all its draw needs.
+struct LayerDraw {
+    std::size_t index = 0;  ///< In the scene.
+    const Layer* layer = nullptr;
+    const plan::LayerPlan* plan = nullptr;
+    CachedDataset* dataset = nullptr;
+    LayerState* state = nullptr;
+    const mesh::MeshGpu* mesh = nullptr;
+    const mesh::FieldGpu* field = nullptr;
+    const volume::ChannelGpu* channel = nullptr;
+    std::vector<shading::Constant> constants;
+};
+
+/// One call of render(), from validation to pixels.
+struct Frame {
+    View* view = nullptr;
+    const Scene* scene = nullptr;
+    PictureSize size{0};
+    const plan::FramePlan* plan = nullptr;
+    std::vector<LayerDraw> draws;
+    std::map<std::string, std::uint64_t> generations;
+    Picture* picture = nullptr;
+    DepthRange depths;
+    std::uint64_t cameraVersion = 0;
+};
+
+bool isOpaque(const LayerDraw& draw) {
+    return draw.plan->evaluator == plan::Evaluator::kMeshRaster;
+}
+
+bool needsField(const Layer& layer) {
+    return layer.model != RayModel::kSurface || layer.coloured;
+}
+
+Result<void> checkTarget(PictureSize size, const FrameTarget& target) {
+    const std::size_t values = static_cast<std::size_t>(size.x) * size.y * 4;
+    for (const std::size_t given : {target.rgba8.size(), target.rgba32f.size()}) {
+        if (given == 0 || given == values) continue;
+        return fail(ErrorCode::kInvalidArgument, "pixels: room for " + std::to_string(given) +
+                                                     " values, the picture has " +
+                                                     std::to_string(values));
+    }
+    return {};
+}
+
+class DeviceRenderer final : public Renderer {
+public:
+    DeviceRenderer(gpu::Device& device, const shading::ChunkSource& chunks)
+        : device_{device}, programs_{device, chunks} {}
+
+    Result<void> open() {
+        const Result<bool> exact = volume::filtersExactly(device_, programs_);
+        if (!exact) return exact.error();
+        filterInHardware_ = *exact;
+        return device_.check("the filter probe");
+    }
+
+    void addDataset(const std::string& id, data::Dataset dataset) override {
+        datasets_.insert_or_assign(
+            id, std::make_unique<CachedDataset>(std::move(dataset), ++generation_));
+    }
+    void removeDataset(const std::string& id) override { datasets_.erase(id); }
+    void dropView(std::uint64_t view) override { views_.erase(view); }
+    [[nodiscard]] const Counters& counters() const noexcept override { return counters_; }
+
+    Result<FrameInfo> render(std::uint64_t view, const Scene& scene, PictureSize size,
+                             const FrameTarget& target) override;
+
+private:
+    Result<Summaries> validated(const Scene& scene, PictureSize size, const FrameTarget& target);
+    [[nodiscard]] Work workFor(const Frame& frame) const;
+    Result<void> prepare(Frame& frame);
+    Result<void> prepareLayer(Frame& frame, LayerDraw& draw);
+    Result<void> sendBlocks(Frame& frame);
+    Result<void> drawLayers(const Frame& frame);
+    Result<void> drawLayer(const Frame& frame, const LayerDraw& draw);
+    Result<void> resolve(const Frame& frame);
+    Result<void> make(Frame& frame, Work work, FrameInfo& info);
+    Result<void> readBack(const Picture& picture, const FrameTarget& target);
+    void countWork();
+
+    gpu::Device& device_;
+    shading::ProgramCache programs_;
+    bool filterInHardware_ = false;
+    std::map<std::string, std::unique_ptr<CachedDataset>> datasets_;
+    std::map<std::uint64_t, View> views_;
+    std::uint64_t generation_ = 0;
+    std::uint64_t frame_ = 0;
+    Counters counters_;
+};
+
+Result<Summaries> DeviceRenderer::validated(const Scene& scene, PictureSize size,
+                                            const FrameTarget& target) {
+    Result<void> valid = validate(size);
+    if (valid) valid = checkTarget(size, target);
+    if (valid) valid = validate(scene);
+    if (!valid) return valid.error();
+    Summaries summaries;
+    for (const Layer& layer : scene.layers) {
+        const auto found = datasets_.find(layer.dataset);
+        if (found != datasets_.end()) summaries.emplace(layer.dataset, found->second->summary());
+    }
+    valid = validate(scene, summaries);
+    if (!valid) return valid.error();
+    return summaries;
+}
+
+Result<FrameInfo> DeviceRenderer::render(std::uint64_t view, const Scene& scene, PictureSize size,
+                                         const FrameTarget& target) {
+    if (!device_.alive()) return fail(ErrorCode::kDeviceLost, "the device was given up");
+    const Counters before = counters_;
+    const Result<Summaries> summaries = validated(scene, size, target);
+    if (!summaries) return summaries.error();
+    FrameInfo info;
+    info.plan = plan::plan(scene, *summaries);
+    Frame frame;
+    frame.view = &views_[view];
+    frame.scene = &scene;
+    frame.size = size;
+    frame.plan = &info.plan;
+    ++frame_;
+    for (std::size_t i = 0; i < scene.layers.size(); ++i) {
+        const Layer& layer = scene.layers[i];
+        CachedDataset& dataset = *datasets_.at(layer.dataset);
+        frame.generations[layer.dataset] = dataset.generation();
+        const plan::LayerPlan& planned = info.plan.layers[i];
+        if (!planned.drawn) continue;
+        LayerDraw& draw = frame.draws.emplace_back();
+        draw.index = i;
+        draw.layer = &layer;
+        draw.plan = &planned;
+        draw.dataset = &dataset;
+    }
+    const Work work = workFor(frame);
+    const Result<void> made = make(frame, work, info);
+    countWork();
+    if (!made) return made.error();
+    gpu::Timer timer{device_};
+    const Result<void> read = readBack(*frame.view->picture, target);
+    if (!read) return read.error();
+    const Result<double> readMs = timer.lapMs();
+    if (!readMs) return readMs.error();
+    info.readbackMs = *readMs;
+    info.drawn = work != Work::kNothing;
+    if (info.drawn) ++counters_.framesDrawn;
+    info.work = counters_ - before;
+    return info;
+}
+
+Work DeviceRenderer::workFor(const Frame& frame) const {
+    const View& view = *frame.view;
+    if (view.stale || view.picture == nullptr || view.picture->size != frame.size) {
+        return Work::kAll;
+    }
+    for (const auto& [id, generation] : frame.generations) {
+        const auto known = view.generations.find(id);
+        if (known == view.generations.end() || known->second != generation) return Work::kAll;
+    }
+    const SceneDiff changes = diff(view.scene, *frame.scene);
+    if (changes.empty()) return Work::kNothing;
+    const bool onlyBackground = !changes.camera && !changes.order && changes.layers.empty();
+    return onlyBackground ? Work::kResolve : Work::kAll;
+}
+
+/// Makes the view's picture; on an error its last one stays readable.
+Result<void> DeviceRenderer::make(Frame& frame, Work work, FrameInfo& info) {
+    if (work == Work::kNothing) return {};
+    View& view = *frame.view;
+    std::unique_ptr<Picture> larger;
+    const bool opaque = std::ranges::any_of(frame.draws, isOpaque);
+    if (view.picture == nullptr || view.picture->size != frame.size ||
+        (opaque && !view.picture->hasOpaque)) {
+        Result<std::unique_ptr<Picture>> made = Picture::create(device_, frame.size, opaque);
+        if (!made) return made.error();
+        larger = std::move(*made);
+    }
+    frame.picture = larger != nullptr ? larger.get() : view.picture.get();
+    gpu::Timer timer{device_};
+    Result<void> done = prepare(frame);
+    if (!done) return done;
+    const Result<double> uploadMs = timer.lapMs();
+    if (!uploadMs) return uploadMs.error();
+    if (work == Work::kAll) {
+        if (larger == nullptr) view.stale = true;
+        done = drawLayers(frame);
+        if (!done) return done;
+    }
+    done = resolve(frame);
+    if (!done) return done;
+    const Result<double> drawMs = timer.lapMs();
+    if (!drawMs) return drawMs.error();
+    info.uploadMs = *uploadMs;
+    info.drawMs = *drawMs;
+    if (larger != nullptr) view.picture = std::move(larger);
+    view.scene = *frame.scene;
+    view.generations = std::move(frame.generations);
+    view.stale = false;
+    std::erase_if(view.layers, [&](const auto& entry) {
+        return std::ranges::none_of(frame.scene->layers,
+                                    [&](const Layer& layer) { return layer.id == entry.first; });
+    });
+    return {};
+}
+
+/// Brings to the GPU what the draws need and it does not have.
+Result<void> DeviceRenderer::prepare(Frame& frame) {
+    View& view = *frame.view;
+    std::vector<data::Box> boxes;
+    for (const LayerDraw& draw : frame.draws) boxes.push_back(draw.dataset->summary().bounds);
+    frame.depths = depthRange(frame.scene->camera, boxes);
+    const Rays rays{.camera = frame.scene->camera, .size = frame.size, .depths = frame.depths};
+    if (view.cameraVersion == 0 || view.rays != rays) ++view.cameraVersion;
+    view.rays = rays;
+    frame.cameraVersion = view.cameraVersion;
+    for (LayerDraw& draw : frame.draws) {
+        const Result<void> prepared = prepareLayer(frame, draw);
+        if (!prepared) return prepared;
+    }
+    const Result<void> sent = sendBlocks(frame);
+    if (!sent) return sent;
+    return device_.check("uploading the scene");
+}
+
+Result<void> DeviceRenderer::prepareLayer(Frame& frame, LayerDraw& draw) {
+    LayerState& state = frame.view->layers[draw.layer->id];
+    if (state.generation != draw.dataset->generation()) {
+        state.walk = mesh::WalkState::create();
+        state.generation = draw.dataset->generation();
+    }
+    draw.state = &state;
+    draw.constants.push_back({"kEndsAtSurfaces", draw.plan->has(plan::kEndsAtSurfaces)});
+    if (needsField(*draw.layer)) {
+        const Result<void> set = state.map.set(device_, draw.layer->map);
+        if (!set) return set;
+        draw.constants.push_back(state.map.constant());
+    }
+    if (!draw.dataset->summary().isMesh) {
+        const Result<const volume::ChannelGpu*> channel =
+            draw.dataset->channel(device_, *draw.layer, frame_);
+        if (!channel) return channel.error();
+        draw.channel = *channel;
+        return {};
+    }
+    const Result<const mesh::MeshGpu*> mesh = draw.dataset->mesh(device_);
+    if (!mesh) return mesh.error();
+    draw.mesh = *mesh;
+    if (!needsField(*draw.layer)) return {};
+    const Result<const mesh::FieldGpu*> field = draw.dataset->field(device_, *draw.layer, frame_);
+    if (!field) return field.error();
+    draw.field = *field;
+    return {};
+}
+
+Result<void> DeviceRenderer::sendBlocks(Frame& frame) {
+    std::vector<LayerBlock> blocks(frame.scene->layers.size());
+    for (const LayerDraw& draw : frame.draws) {
+        blocks[draw.index] = layerBlock(frame.scene->camera, frame.size, frame.depths, *draw.layer,
+                                        draw.dataset->data(), draw.plan->stepWorld);
+    }
+    return frame.view->blocks.set(device_, frame.scene->background, blocks);
+}
+
+Result<void> DeviceRenderer::drawLayers(const Frame& frame) {
+    const Picture& picture = *frame.picture;
+    picture.transparentPass.clearColour(0, glm::vec4(0.0F));
+    const bool opaque = std::ranges::any_of(frame.draws, isOpaque);
+    if (opaque) {
+        picture.opaquePass.clearColour(1, glm::vec4(kNoSurface));
+        picture.opaquePass.clearDepth();
+    }
+    for (const bool opaqueFirst : {true, false}) {
+        for (const LayerDraw& draw : frame.draws) {
+            if (isOpaque(draw) != opaqueFirst) continue;
+            Result<void> drawn = drawLayer(frame, draw);
+            if (drawn) drawn = device_.check("layer \"" + draw.layer->id + "\"");
+            if (!drawn) return drawn;
+        }
+    }
+    return {};
+}
+
+Result<void> DeviceRenderer::drawLayer(const Frame& frame, const LayerDraw& draw) {
+    frame.view->blocks.bindLayer(draw.index);
+    if (needsField(*draw.layer)) draw.state->map.bind();
+    if (!isOpaque(draw) && draw.plan->has(plan::kEndsAtSurfaces)) {
+        frame.picture->distance.bind(shading::shared::kOpaqueDistanceUnit);
+    }
+    if (draw.channel != nullptr) {
+        return volume::drawMarch({.device = &device_,
+                                  .programs = &programs_,
+                                  .channel = draw.channel,
+                                  .plan = draw.plan,
+                                  .model = draw.layer->model,
+                                  .filterInHardware = filterInHardware_,
+                                  .constants = draw.constants,
+                                  .target = &frame.picture->transparentPass});
+    }
+    const mesh::DrawInputs inputs{
+        .device = &device_,
+        .programs = &programs_,
+        .mesh = &std::get<data::Mesh>(draw.dataset->data()),
+        .meshGpu = draw.mesh,
+        .field = draw.field,
+        .association = draw.dataset->association(*draw.layer),
+        .layer = draw.layer,
+        .plan = draw.plan,
+        .camera = &frame.scene->camera,
+        .planeDepth = frame.depths.nearest,
+        .size = frame.size,
+        .cameraVersion = frame.cameraVersion,
+        .constants = draw.constants,
+        .target = isOpaque(draw) ? &frame.picture->opaquePass : &frame.picture->transparentPass};
+    return isOpaque(draw) ? mesh::drawSurface(inputs) : mesh::drawWalk(inputs, *draw.state->walk);
+}
+
+Result<void> DeviceRenderer::resolve(const Frame& frame) {
+    const Result<const gpu::Program*> program =
+        programs_.pass(shading::kFullScreenVertex, "lib/resolve.glsl");
+    if (!program) return program.error();
+    frame.picture->resolvePass.begin({});
+    (*program)->use();
+    frame.picture->layers.bind(0);
+    frame.view->blocks.bindBackground(0);
+    device_.draw(gpu::Primitive::kTriangles, 3);
+    return device_.check("resolving the picture");
+}
+
+Result<void> DeviceRenderer::readBack(const Picture& picture, const FrameTarget& target) {
+    if (!target.rgba8.empty()) picture.resolvePass.readRgba8(target.rgba8);
+    if (!target.rgba32f.empty()) picture.transparentPass.readRgba32F(target.rgba32f);
+    return device_.check("reading the picture");
+}
+
+void DeviceRenderer::countWork() {
+    const gpu::Counters& work = device_.counters();
+    counters_.bufferUploads = work.bufferUploads;
+    counters_.textureUploads = work.textureUploads;
+    counters_.uploadedBytes = work.uploadedBytes;
+    counters_.programsBuilt = work.programsBuilt;
+    counters_.drawCalls = work.drawCalls;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Renderer>> Renderer::create(gpu::Device& device,
+                                                   const shading::ChunkSource& chunks) {
+    auto renderer = std::make_unique<DeviceRenderer>(device, chunks);
+    const Result<void> opened = renderer->open();
+    if (!opened) return opened.error();
+    return std::unique_ptr<Renderer>{std::move(renderer)};
+}
+
+}  // namespace volcast::scene

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+
+#include "renderer/mesh/walk.h"
+#include "renderer/scene/map_table.h"
+#include "renderer/scene/picture.h"
+#include "renderer/scene/view_blocks.h"
+
+namespace volcast::scene {
+
+/// What a view keeps on the GPU for one layer.
+struct LayerState {
+    MapTable map;
+    std::unique_ptr<mesh::WalkState> walk = mesh::WalkState::create();
+    std::uint64_t generation = 0;  ///< Of the dataset that `walk` belongs to.
+};
+
+/// All that decides where a picture's rays run.
+struct Rays {
+    Camera camera;
+    PictureSize size{0};
+    DepthRange depths;
+    friend bool operator==(const Rays&, const Rays&) = default;
+};
+
+/// What the renderer remembers of a view between its pictures.
+struct View {
+    Scene scene;  ///< As last drawn.
+    std::unique_ptr<Picture> picture;
+    std::map<std::string, std::uint64_t> generations;  ///< Of the datasets last drawn.
+    std::map<std::string, LayerState> layers;          ///< By layer id.
+    ViewBlocks blocks;
+    Rays rays;
+    std::uint64_t cameraVersion = 0;  ///< Grows whenever `rays` changes.
+    bool stale = true;  ///< The 32F layers are not those of `scene`; the resolved picture is.
+};
+
+}  // namespace volcast::scene

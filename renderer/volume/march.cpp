@@ -1,0 +1,71 @@
+#include "renderer/volume/march.h"
+
+#include <array>
+#include <cmath>
+
+#include "renderer/plan/effects.h"
+#include "renderer/shading/ray_models.h"
+#include "renderer/shading/shared.h"
+
+namespace volcast::volume {
+
+shading::Recipe marchRecipe(const plan::LayerPlan& plan, scene::RayModel model,
+                            bool filterInHardware, std::vector<shading::Constant> constants) {
+    const shading::RayModelRow& row = shading::kRayModels.at(static_cast<std::size_t>(model));
+    constants.insert(constants.end(), {{"kTrilinear", plan.has(plan::kInterpolation)},
+                                       {"kFilterInHardware", filterInHardware},
+                                       {"kSkipBricks", plan.has(plan::kEmptyBricks)},
+                                       {"kEarlyStop", plan.has(plan::kEarlyStop)},
+                                       {"kBrickSize", data::Volume::kBrickSize},
+                                       {"kMaxRaySamples", plan::kMaxRaySamples}});
+    return {.evaluator = "volume/march.glsl",
+            .classify = "classify/transfer_function.glsl",
+            .segment = row.integrates ? "segment/average.glsl" : "",
+            .model = std::string{row.chunk},
+            .constants = std::move(constants)};
+}
+
+Result<void> drawMarch(const DrawInputs& inputs) {
+    const Result<const gpu::Program*> program = inputs.programs->ray(
+        marchRecipe(*inputs.plan, inputs.model, inputs.filterInHardware, inputs.constants));
+    if (!program) return program.error();
+    inputs.target->begin({.blend = gpu::Blend::kOver});
+    (*program)->use();
+    inputs.channel->bind();
+    inputs.device->draw(gpu::Primitive::kTriangles, 3);
+    return {};
+}
+
+Result<bool> filtersExactly(gpu::Device& device, shading::ProgramCache& programs) {
+    // Between voxels 0 and 1 the value is the position itself; hardware with 8 bits is off by up
+    // to 1/512 there.
+    constexpr int kWidth = 64;
+    constexpr float kTolerance = 4e-6F;
+    Result<gpu::Texture3D> voxels =
+        gpu::Texture3D::create(device, {.size = {2, 1, 1}, .linear = true, .label = "probe"});
+    if (!voxels) return voxels.error();
+    const std::array<float, 2> ends{0.0F, 1.0F};
+    const Result<void> uploaded = voxels->upload(0, 1, std::as_bytes(std::span{ends}));
+    if (!uploaded) return uploaded.error();
+    const Result<gpu::Texture2D> row = gpu::Texture2D::create(
+        device, {.size = {kWidth, 1}, .format = gpu::PixelFormat::kRgba32F, .label = "probe"});
+    if (!row) return row.error();
+    const std::array colours{&*row};
+    const Result<gpu::Target> target = gpu::Target::create(device, "probe", colours);
+    if (!target) return target.error();
+    const Result<const gpu::Program*> program =
+        programs.pass(shading::kFullScreenVertex, "volume/filter_probe.glsl");
+    if (!program) return program.error();
+    target->begin({});
+    (*program)->use();
+    voxels->bind(shading::shared::kVoxelUnit);
+    device.draw(gpu::Primitive::kTriangles, 3);
+    std::array<float, std::size_t{4} * kWidth> pixels{};
+    target->readRgba32F(pixels);
+    for (std::size_t i = 0; i < kWidth; ++i) {
+        if (!(std::abs(pixels[4 * i] - pixels[4 * i + 1]) < kTolerance)) return false;
+    }
+    return true;
+}
+
+}  // namespace volcast::volume

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "renderer/base/result.h"
+#include "renderer/data/volume.h"
+#include "renderer/gpu/target.h"
+#include "renderer/gpu/texture3d.h"
+#include "renderer/plan/plan.h"
+#include "renderer/shading/program_cache.h"
+
+namespace volcast::volume {
+
+/// One channel of a volume on the GPU, as float32 whatever its type: exact for 8 and 16 bits, and
+/// faster to filter than integers on llvmpipe. Shared by all views.
+class ChannelGpu {
+public:
+    /// Errors: kLimitExceeded (too many voxels along an axis), kOutOfGpuMemory.
+    static Result<ChannelGpu> upload(gpu::Device& device, const data::Volume& volume,
+                                     const data::Channel& channel);
+
+    void bind() const noexcept;
+
+private:
+    gpu::Texture3D voxels_;
+    gpu::Texture3D bricks_;
+};
+
+/// True where texture() interpolates float32 voxels in full precision. GPUs commonly keep 8 bits
+/// of the position between voxels, which shows as bands under a steep map.
+///
+/// Draws a few pixels; meant to be asked once a device.
+Result<bool> filtersExactly(gpu::Device& device, shading::ProgramCache& programs);
+
+struct DrawInputs {
+    gpu::Device* device = nullptr;
+    shading::ProgramCache* programs = nullptr;
+    const ChannelGpu* channel = nullptr;
+    const plan::LayerPlan* plan = nullptr;
+    scene::RayModel model = scene::RayModel::kVolume;
+    bool filterInHardware = false;  ///< Only where filtersExactly().
+    /// Of lib/layer.glsl and of the classification.
+    std::vector<shading::Constant> constants;
+    const gpu::Target* target = nullptr;
+};
+
+/// Draws one layer over what is in the target. The layer block, the map and the opaque distances
+/// are bound by the caller.
+///
+/// Errors: kShaderBuild.
+Result<void> drawMarch(const DrawInputs& inputs);
+
+/// The program of drawMarch().
+shading::Recipe marchRecipe(const plan::LayerPlan& plan, scene::RayModel model,
+                            bool filterInHardware, std::vector<shading::Constant> constants);
+
+}  // namespace volcast::volume

@@ -1,0 +1,23 @@
+// Makes the picture people see: linear premultiplied layers over the background, as sRGB with
+// straight alpha.
+// Source of the encoding: IEC 61966-2-1.
+layout(binding = 0) uniform sampler2D layers;
+layout(std140, binding = 0) uniform Background {
+    vec4 background;  // linear, straight; a: opacity
+};
+
+layout(location = 0) out vec4 picture;
+
+vec3 srgbFrom(vec3 linear) {
+    vec3 clamped = clamp(linear, 0.0, 1.0);
+    return mix(1.055 * pow(clamped, vec3(1.0 / 2.4)) - 0.055, 12.92 * clamped,
+               lessThanEqual(clamped, vec3(0.0031308)));
+}
+
+void main() {
+    vec4 front = texelFetch(layers, ivec2(gl_FragCoord.xy), 0);
+    float behind = (1.0 - front.a) * background.a;
+    float opacity = front.a + behind;
+    vec3 premultiplied = front.rgb + behind * background.rgb;
+    picture = vec4(srgbFrom(opacity > 0.0 ? premultiplied / opacity : vec3(0.0)), opacity);
+}

@@ -1,0 +1,24 @@
+// Binding numbers of mesh passes, read by C++ (inside a namespace) and by GLSL. Texture units go on
+// from kFirstMeshUnit.
+
+const int kPositionUnit = 4;   // 3 floats a vertex, data space
+const int kVertexUnit = 5;     // xyz: camera space, w: value (fields at vertices)
+const int kCellUnit = 6;       // 2 texels a cell, see mesh/mesh.glsl
+const int kBoundaryUnit = 7;   // 2 texels a boundary face, see mesh/mesh.glsl
+const int kFieldUnit = 8;      // values as they are stored
+const int kEntryUnit = 9;      // a pixel's first boundary face, or the head of its list
+const int kEntryNodeUnit = 10; // nodes of all lists
+
+// Storage blocks
+const int kVertexStorage = 0;
+const int kNodeStorage = 1;
+const int kCountStorage = 2;
+const int kPausedStorage = 3;
+
+// Image units
+const int kHeadImage = 0;
+
+// Where a field's values sit; the constant kValuesAt.
+const int kValuesAtVertices = 0;
+const int kValuesAtCells = 1;
+const int kValuesAtCorners = 2;
