@@ -1,0 +1,134 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include <glm/glm.hpp>
+
+#include "renderer/data/transfer_function.h"
+#include "renderer/data/volume.h"
+#include "renderer/scene/scene.h"
+
+/// The normative integrals of a voxel volume in double precision, written apart from the shaders.
+namespace volcast::support {
+
+struct ReferenceRay {
+    glm::dvec3 eye{0.0};        ///< World.
+    glm::dvec3 direction{0.0};  ///< World, length 1.
+};
+
+/// The ray through the centre of pixel (x, y), row 0 on top.
+inline ReferenceRay referenceRay(const scene::Camera& camera, glm::ivec2 size, int x, int y) {
+    const glm::dvec3 w = glm::normalize(camera.center - camera.eye);
+    const glm::dvec3 u = glm::normalize(glm::cross(w, camera.up));
+    const glm::dvec3 v = glm::cross(u, w);
+    const double right = (2.0 * (x + 0.5) / size.x - 1.0) * size.x / size.y;
+    const double up = 1.0 - 2.0 * (y + 0.5) / size.y;
+    if (camera.projection == scene::Projection::kOrthographic) {
+        const double half = camera.orthographicHeight / 2.0;
+        return {.eye = camera.eye + half * (right * u + up * v), .direction = w};
+    }
+    const double slope = std::tan(camera.fovyDegrees * 3.14159265358979323846 / 360.0);
+    return {.eye = camera.eye, .direction = glm::normalize(w + slope * (right * u + up * v))};
+}
+
+/// A volume of float32 voxels as a function of the place.
+class VolumeReference {
+public:
+    VolumeReference(const data::Volume& volume, scene::Sampling sampling)
+        : volume_{volume}, sampling_{sampling}, values_(volume.channels[0].voxels.size() / 4) {
+        std::memcpy(values_.data(), volume.channels[0].voxels.data(), values_.size() * 4);
+    }
+
+    /// Distances along `ray` at which it enters and leaves the volume, not behind the eye;
+    /// x > y: never.
+    [[nodiscard]] glm::dvec2 span(const ReferenceRay& ray) const {
+        const glm::dvec3 o = gridFrom(ray.eye);
+        const glm::dvec3 d = gridFrom(ray.eye + ray.direction) - o;
+        glm::dvec2 inside{0.0, 1e300};
+        for (int axis = 0; axis < 3; ++axis) {
+            const double high = volume_.size[axis] - 1;
+            if (d[axis] == 0.0) {
+                if (o[axis] < 0.0 || o[axis] > high) return {1.0, 0.0};
+                continue;
+            }
+            const double a = -o[axis] / d[axis], b = (high - o[axis]) / d[axis];
+            inside = {std::max(inside.x, std::min(a, b)), std::min(inside.y, std::max(a, b))};
+        }
+        return inside;
+    }
+
+    [[nodiscard]] double valueAt(const glm::dvec3& world) const {
+        const glm::dvec3 last = glm::dvec3(volume_.size) - 1.0;
+        const glm::dvec3 at = glm::clamp(gridFrom(world), glm::dvec3(0.0), last);
+        if (sampling_ == scene::Sampling::kNearest) return voxel(glm::ivec3(at + 0.5));
+        const glm::ivec3 low = glm::min(glm::ivec3(at), glm::max(volume_.size - 2, 0));
+        const glm::dvec3 t = at - glm::dvec3(low);
+        double sum = 0.0;
+        for (int corner = 0; corner < 8; ++corner) {
+            const glm::ivec3 step{corner & 1, corner >> 1 & 1, corner >> 2};
+            const glm::dvec3 share = glm::mix(1.0 - t, t, glm::dvec3(step));
+            sum += share.x * share.y * share.z * voxel(glm::min(low + step, volume_.size - 1));
+        }
+        return sum;
+    }
+
+    /// Emission and absorption by `samples` midpoints: premultiplied linear colour and opacity.
+    [[nodiscard]] glm::dvec4 composite(const ReferenceRay& ray, const data::TransferFunction& map,
+                                       int samples) const {
+        const glm::dvec2 inside = span(ray);
+        if (inside.x > inside.y) return glm::dvec4(0.0);
+        const double dt = (inside.y - inside.x) / samples;
+        glm::dvec3 colour{0.0};
+        double depth = 0.0;
+        for (int i = 0; i < samples; ++i) {
+            const glm::dvec4 matter = matterAt(ray, inside.x + (i + 0.5) * dt, map);
+            colour += glm::dvec3(matter) * (std::exp(-depth) * -std::expm1(-matter.a * dt));
+            depth += matter.a * dt;
+        }
+        return {colour, -std::expm1(-depth)};
+    }
+
+    /// The largest of `samples` values at midpoints; `met` tells whether the ray met the volume.
+    [[nodiscard]] double largest(const ReferenceRay& ray, int samples, bool& met) const {
+        const glm::dvec2 inside = span(ray);
+        met = inside.x <= inside.y;
+        double found = -1e300;
+        for (int i = 0; met && i < samples; ++i) {
+            const double s = inside.x + (inside.y - inside.x) * (i + 0.5) / samples;
+            found = std::max(found, valueAt(ray.eye + s * ray.direction));
+        }
+        return found;
+    }
+
+private:
+    [[nodiscard]] glm::dvec3 gridFrom(const glm::dvec3& world) const {
+        return glm::transpose(volume_.direction) * (world - volume_.origin) / volume_.spacing;
+    }
+    [[nodiscard]] double voxel(const glm::ivec3& i) const {
+        return values_[static_cast<std::size_t>(i.x) +
+                       static_cast<std::size_t>(volume_.size.x) *
+                           (i.y + static_cast<std::size_t>(volume_.size.y) * i.z)];
+    }
+    [[nodiscard]] glm::dvec4 matterAt(const ReferenceRay& ray, double s,
+                                      const data::TransferFunction& map) const {
+        const double value = valueAt(ray.eye + s * ray.direction);
+        const auto& points = map.points;
+        std::size_t above = 0;
+        while (above < points.size() && value >= points[above].value) ++above;
+        const auto matter = [&](std::size_t i) {
+            return glm::dvec4(glm::dvec3(points[i].colour), points[i].extinction);
+        };
+        if (above == 0) return matter(0);
+        if (above == points.size()) return matter(above - 1);
+        const double low = points[above - 1].value, high = points[above].value;
+        return glm::mix(matter(above - 1), matter(above), (value - low) / (high - low));
+    }
+
+    const data::Volume& volume_;
+    scene::Sampling sampling_;
+    std::vector<float> values_;
+};
+
+}  // namespace volcast::support
