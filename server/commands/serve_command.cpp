@@ -1,0 +1,144 @@
+#include "server/commands/serve_command.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <thread>
+
+#include <CLI/CLI.hpp>
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include "server/settings.h"
+
+namespace volcast::commands {
+
+namespace {
+
+std::string defaultClientFolder() {
+    std::error_code ignored;
+    const auto program = std::filesystem::read_symlink("/proc/self/exe", ignored);
+    return (program.parent_path() / "../../web_client").lexically_normal().string();
+}
+
+/// One line an event on stderr: time, level, then key=value.
+void startLog(const std::string& level) {
+    auto log = spdlog::stderr_color_mt("volcast");
+    log->set_pattern("%Y-%m-%dT%H:%M:%S.%e %l %v");
+    log->set_level(spdlog::level::from_str(level));
+    log->flush_on(spdlog::level::trace);
+    spdlog::set_default_logger(std::move(log));
+}
+
+int complain(const Error& error) {
+    std::fprintf(stderr, "volcast serve: %s\n", error.message.c_str());
+    return 1;
+}
+
+/// Builds the parts, joins them, serves.
+int serve(ServeSettings settings) {
+    startLog(settings.logLevel);
+    if (settings.listen.clientFolder.empty()) settings.listen.clientFolder = defaultClientFolder();
+    session::ViewRouter router;
+    session::EncodePool encoders{settings.encodeThreads};
+    auto render = workers::RenderService::create(settings.render, router.events());
+    if (!render) return complain(render.error());
+    session::CatalogueDesc desc;
+    desc.folder = settings.dataFolder;
+    desc.imports = settings.imports;
+    desc.importsAtOnce = settings.importsAtOnce;
+    auto catalogue = session::Catalogue::create(std::move(desc), **render);
+    if (!catalogue) return complain(catalogue.error());
+    session::Shared shared{.render = **render,
+                           .catalogue = **catalogue,
+                           .router = router,
+                           .encoders = encoders,
+                           .limits = settings.limits,
+                           .server = settings.serverName,
+                           .sourceUrl = settings.sourceUrl};
+    auto server = net::Server::create(settings.listen, shared);
+    if (!server) return complain(server.error());
+    const workers::RenderStatus status = (*render)->status();
+    spdlog::info("event=ready url={} gl_renderer=\"{}\" data=\"{}\"", (*server)->url(),
+                 status.glRenderer, settings.dataFolder.empty() ? "demo" : settings.dataFolder);
+    std::printf("Volcast is ready: %s\n", (*server)->url().c_str());
+    std::fflush(stdout);
+    (*server)->run();
+    spdlog::info("event=stopped");
+    // An import that runs can take minutes; its process ends with this one.
+    if ((*catalogue)->importing()) std::_Exit(0);
+    // News of other threads end before the sockets' context does.
+    catalogue->reset();
+    render->reset();
+    return 0;
+}
+
+void addLimits(CLI::App& command, ServeSettings& settings) {
+    command.add_option("--max-clients", settings.listen.maxClients, "WebSockets at once")
+        ->check(CLI::Range(1U, 10000U))
+        ->capture_default_str();
+    command.add_option("--max-views", settings.limits.maxViews, "Views of one client")
+        ->check(CLI::Range(1U, 256U))
+        ->capture_default_str();
+    command
+        .add_option_function<std::int64_t>(
+            "--frame-deadline-ms",
+            [&settings](std::int64_t ms) {
+                settings.render.frameDeadline = std::chrono::milliseconds{ms};
+            },
+            "A frame that takes longer costs its worker (default 10000)")
+        ->check(CLI::Range(100, 3'600'000));
+    command
+        .add_option_function<std::int64_t>(
+            "--import-deadline-ms",
+            [&settings](std::int64_t ms) {
+                settings.imports.deadline = std::chrono::milliseconds{ms};
+            },
+            "An import that takes longer is ended (default 120000)")
+        ->check(CLI::Range(100, 86'400'000));
+    command
+        .add_option_function<std::uint64_t>(
+            "--import-memory-mb",
+            [&settings](std::uint64_t mb) { settings.imports.maxMemoryBytes = mb << 20U; },
+            "Memory that one import may take (default 8192)")
+        ->check(CLI::Range(64, 1 << 20));
+}
+
+}  // namespace
+
+void addServeCommand(CLI::App& app, int& exitCode) {
+    auto settings = std::make_shared<ServeSettings>();
+    const unsigned cores = std::max(1U, std::thread::hardware_concurrency());
+    settings->listen.threads = std::clamp(cores, 1U, 4U);
+    settings->encodeThreads = std::clamp(cores, 1U, 8U);
+    settings->importsAtOnce = cores > 4 ? 2 : 1;
+    settings->serverName = "volcast " + app.version();
+    CLI::App& command =
+        *app.add_subcommand("serve", "Serve a folder of data, or the built-in demo, to browsers");
+    command.add_option("DATA_DIR", settings->dataFolder,
+                       "Folder with meshes and volumes; none: the built-in demo");
+    command.add_option("--host", settings->listen.host, "Address to listen on")
+        ->envname("VOLCAST_HOST")
+        ->capture_default_str();
+    command.add_option("--port", settings->listen.port, "Port; 0: any free one")
+        ->envname("VOLCAST_PORT")
+        ->capture_default_str();
+    command
+        .add_option("--gpu", settings->render.gpu,
+                    "EGL device as `volcast doctor` lists it; none: surfaceless")
+        ->envname("VOLCAST_GPU");
+    command.add_option("--client-dir", settings->listen.clientFolder,
+                       "Built web client; none: web_client beside the build's folder");
+    command.add_option("--allow-origin", settings->listen.allowedOrigins,
+                       "Further web origins that may connect, such as https://lab.example.org");
+    command.add_option("--source-url", settings->sourceUrl,
+                       "Where users of this server get its source (AGPL), told to clients");
+    command.add_option("--log-level", settings->logLevel, "debug, info, warning, error or off")
+        ->check(CLI::IsMember({"debug", "info", "warning", "error", "off"}))
+        ->capture_default_str();
+    addLimits(command, *settings);
+    command.callback([settings, &exitCode] { exitCode = serve(*settings); });
+}
+
+}  // namespace volcast::commands

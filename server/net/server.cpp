@@ -1,0 +1,258 @@
+#include "server/net/server.h"
+
+#include <atomic>
+#include <csignal>
+#include <cstdlib>
+#include <exception>
+#include <map>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <utility>
+
+#include <spdlog/spdlog.h>
+
+#include "server/net/http_answers.h"
+#include "server/net/web_socket.h"
+
+namespace volcast::net {
+
+namespace {
+
+constexpr std::chrono::seconds kHeaderWithin{5};
+constexpr std::chrono::seconds kKeepAlive{15};
+constexpr std::chrono::milliseconds kDrainWithin{5000};
+constexpr std::chrono::milliseconds kPlainDrain{100};  ///< For answers being sent.
+constexpr std::uint32_t kHeaderLimit = 8192;
+constexpr unsigned kPlainConnections = 64;  ///< Besides WebSockets.
+
+bool offersSubprotocol(const Request& request) {
+    http::token_list offered{request[http::field::sec_websocket_protocol]};
+    return offered.exists(kSubprotocol);
+}
+
+std::string urlOf(const std::string& host, std::uint16_t port) {
+    const bool ipv6 = host.find(':') != std::string::npos;
+    return "http://" + (ipv6 ? "[" + host + "]" : host) + ":" + std::to_string(port) + "/";
+}
+
+class BeastServer final : public Server {
+public:
+    BeastServer(ListenSettings settings, session::Shared& shared)
+        : settings_{std::move(settings)},
+          shared_{shared},
+          files_{settings_.clientFolder},
+          answers_{files_, shared_} {}
+
+    Result<void> listen();
+    [[nodiscard]] std::string url() const override {
+        return urlOf(settings_.host, acceptor_.local_endpoint().port());
+    }
+    void run() override;
+
+private:
+    asio::awaitable<void> acceptAll();
+    asio::awaitable<void> serve(Stream stream);
+    asio::awaitable<void> serveWebSocket(Stream stream, Request request);
+    [[nodiscard]] std::optional<Response> refusal(const Request& request) const;
+    void onSignal();
+    void stopWithin(std::chrono::milliseconds limit);
+
+    ListenSettings settings_;
+    session::Shared& shared_;
+    StaticFiles files_;
+    HttpAnswers answers_;
+    asio::io_context context_;
+    Strand control_{asio::make_strand(context_)};  ///< Of the four below.
+    asio::basic_socket_acceptor<Tcp, Strand> acceptor_{control_};
+    asio::signal_set signals_{control_};
+    asio::steady_timer drained_{control_};
+    asio::steady_timer pause_{control_};
+    OriginRule origins_;
+    std::atomic<unsigned> connections_ = 0;
+    std::atomic<unsigned> webSockets_ = 0;
+    std::atomic<bool> draining_ = false;
+    std::mutex mutex_;
+    std::uint64_t lastNumber_ = 0;
+    std::map<std::uint64_t, std::weak_ptr<WebSocket>> sockets_;
+};
+
+Result<void> BeastServer::listen() {
+    const auto failed = [this](const std::string& why) {
+        return fail(ErrorCode::kIo, urlOf(settings_.host, settings_.port) + ": " + why);
+    };
+    boost::system::error_code error;
+    const std::string host = settings_.host == "localhost" ? "127.0.0.1" : settings_.host;
+    const auto address = asio::ip::make_address(host, error);
+    if (error) {
+        return fail(ErrorCode::kInvalidArgument,
+                    "--host " + settings_.host + ": not an address of this machine");
+    }
+    const Tcp::endpoint endpoint{address, settings_.port};
+    acceptor_.open(endpoint.protocol(), error);
+    if (error) return failed(error.message());
+    acceptor_.set_option(asio::socket_base::reuse_address{true}, error);
+    acceptor_.bind(endpoint, error);
+    if (error) return failed("cannot listen: " + error.message());
+    acceptor_.listen(asio::socket_base::max_listen_connections, error);
+    if (error) return failed("cannot listen: " + error.message());
+    origins_ = {.allowed = settings_.allowedOrigins, .loopbackOnly = address.is_loopback()};
+    return boost::system::in_place_value;
+}
+
+void BeastServer::run() {
+    signals_.add(SIGINT);
+    signals_.add(SIGTERM);
+    signals_.async_wait([this](boost::system::error_code error, int) {
+        if (!error) onSignal();
+    });
+    asio::co_spawn(control_, acceptAll(), asio::detached);
+    std::vector<std::thread> threads;
+    for (unsigned i = 1; i < settings_.threads; ++i) {
+        threads.emplace_back([this] { context_.run(); });
+    }
+    context_.run();
+    for (std::thread& thread : threads) thread.join();
+    // Sessions go now, while what they share exists; the sockets go with the context.
+    for (const auto& [number, weak] : sockets_) {
+        if (const auto socket = weak.lock()) socket->abandon();
+    }
+}
+
+void BeastServer::onSignal() {
+    spdlog::info("event=draining clients={}", webSockets_.load());
+    draining_ = true;
+    signals_.async_wait([](boost::system::error_code error, int signal) {
+        if (!error) std::_Exit(128 + signal);
+    });
+    boost::system::error_code ignored;
+    acceptor_.close(ignored);
+    const std::lock_guard lock{mutex_};
+    for (const auto& [number, weak] : sockets_) {
+        if (const auto socket = weak.lock()) socket->drain();
+    }
+    stopWithin(webSockets_ == 0 ? kPlainDrain : kDrainWithin);
+}
+
+void BeastServer::stopWithin(std::chrono::milliseconds limit) {
+    drained_.expires_after(limit);
+    drained_.async_wait([this](boost::system::error_code error) {
+        if (!error) context_.stop();
+    });
+}
+
+asio::awaitable<void> BeastServer::acceptAll() {
+    while (!draining_) {
+        auto [error, socket] =
+            co_await acceptor_.async_accept(asio::make_strand(context_), kAsTuple);
+        if (error) {
+            if (draining_) co_return;
+            spdlog::warn("event=accept_failed error=\"{}\"", error.message());
+            // Out of descriptors, most likely: wait for some to come back.
+            pause_.expires_after(std::chrono::milliseconds{100});
+            co_await pause_.async_wait(kAsTuple);
+            continue;
+        }
+        if (connections_ >= settings_.maxClients + kPlainConnections) continue;
+        ++connections_;
+        const Strand strand = socket.get_executor();
+        asio::co_spawn(strand, serve(Stream{std::move(socket)}),
+                       [this](const std::exception_ptr& thrown) {
+                           if (thrown) spdlog::error("event=connection_threw");
+                           --connections_;
+                       });
+    }
+}
+
+asio::awaitable<void> BeastServer::serve(Stream stream) {
+    beast::flat_buffer buffer;
+    std::chrono::seconds patience = kHeaderWithin;
+    while (!draining_) {
+        http::request_parser<http::empty_body> parser;
+        parser.header_limit(kHeaderLimit);
+        stream.expires_after(patience);
+        const auto [error, bytes] =
+            co_await http::async_read_header(stream, buffer, parser, kAsTuple);
+        if (error == http::error::header_limit) {
+            Response tooLarge =
+                HttpAnswers::plain(parser.get(), http::status::request_header_fields_too_large,
+                                   "headers above " + std::to_string(kHeaderLimit) + " bytes");
+            tooLarge.keep_alive(false);
+            co_await http::async_write(stream, tooLarge, kAsTuple);
+        }
+        if (error) break;
+        Request request = parser.release();
+        const bool upgrade = websocket::is_upgrade(request);
+        auto refused = upgrade ? refusal(request) : std::nullopt;
+        if (upgrade && !refused) {
+            co_await serveWebSocket(std::move(stream), std::move(request));
+            co_return;
+        }
+        Response response = refused ? std::move(*refused) : answers_.answer(request);
+        const bool more = response.keep_alive() && !parser.chunked() &&
+                          request[http::field::content_length].empty();
+        response.keep_alive(more);
+        const auto [failed, sent] = co_await http::async_write(stream, response, kAsTuple);
+        if (failed || !more) break;
+        patience = kKeepAlive;
+    }
+    boost::system::error_code ignored;
+    stream.socket().shutdown(Tcp::socket::shutdown_both, ignored);
+}
+
+std::optional<Response> BeastServer::refusal(const Request& request) const {
+    const std::string_view target = request.target();
+    if (target.substr(0, target.find('?')) != "/v1/ws") {
+        return HttpAnswers::plain(request, http::status::not_found, "the WebSocket is at /v1/ws");
+    }
+    const std::string_view origin = request[http::field::origin];
+    if (!originAllowed(origin, request[http::field::host], origins_)) {
+        spdlog::warn("event=origin_refused origin=\"{}\"", origin.substr(0, 200));
+        return HttpAnswers::plain(request, http::status::forbidden,
+                                  "pages of this origin may not connect; the server's "
+                                  "--allow-origin lists those that may");
+    }
+    if (!offersSubprotocol(request)) {
+        return HttpAnswers::plain(request, http::status::bad_request,
+                                  std::string{"the WebSocket subprotocol must be "} + kSubprotocol);
+    }
+    if (webSockets_ >= settings_.maxClients) {
+        spdlog::warn("event=client_refused limit={}", settings_.maxClients);
+        return HttpAnswers::plain(
+            request, http::status::service_unavailable,
+            "this server has " + std::to_string(settings_.maxClients) +
+                " clients, the most that it takes (--max-clients); try again later");
+    }
+    return std::nullopt;
+}
+
+asio::awaitable<void> BeastServer::serveWebSocket(Stream stream, Request request) {
+    ++webSockets_;
+    std::uint64_t number = 0;
+    std::shared_ptr<WebSocket> socket;
+    {
+        const std::lock_guard lock{mutex_};
+        number = ++lastNumber_;
+        socket = std::make_shared<WebSocket>(std::move(stream), shared_, number);
+        sockets_[number] = socket;
+    }
+    spdlog::info("event=connected connection={}", number);
+    co_await socket->serve(request);
+    {
+        const std::lock_guard lock{mutex_};
+        sockets_.erase(number);
+    }
+    if (--webSockets_ == 0 && draining_) {
+        asio::post(control_, [this] { stopWithin(kPlainDrain); });
+    }
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Server>> Server::create(ListenSettings settings, session::Shared& shared) {
+    auto server = std::make_unique<BeastServer>(std::move(settings), shared);
+    if (const auto listening = server->listen(); !listening) return listening.error();
+    return std::unique_ptr<Server>{std::move(server)};
+}
+
+}  // namespace volcast::net

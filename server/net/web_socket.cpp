@@ -1,0 +1,170 @@
+#include "server/net/web_socket.h"
+
+#include <algorithm>
+#include <array>
+#include <netinet/in.h>
+#include <netinet/tcp.h>
+#include <sys/socket.h>
+#include <utility>
+
+#include <spdlog/spdlog.h>
+
+namespace volcast::net {
+
+namespace {
+
+using session::Clock;
+
+constexpr std::chrono::seconds kHandshake{30};
+constexpr std::chrono::seconds kIdle{60};  ///< Pinged at half of it.
+constexpr std::chrono::seconds kStuckWrite{20};
+constexpr std::chrono::seconds kCloseWithin{3};
+constexpr std::size_t kSlice = 64 * 1024;
+constexpr int kNotSentLowat = 128 * 1024;
+
+/// The kernel queues little beyond what is on the wire: newer frames overtake in our slots instead.
+void setSocketOptions(Stream& stream) {
+    boost::system::error_code ignored;
+    stream.socket().set_option(Tcp::no_delay{true}, ignored);
+    ::setsockopt(stream.socket().native_handle(), IPPROTO_TCP, TCP_NOTSENT_LOWAT, &kNotSentLowat,
+                 sizeof(kNotSentLowat));
+}
+
+}  // namespace
+
+WebSocket::WebSocket(Stream stream, session::Shared& shared, std::uint64_t number)
+    : socket_{std::move(stream)},
+      shared_{shared},
+      number_{number},
+      wake_{socket_.get_executor()},
+      watch_{socket_.get_executor()} {
+    socket_.next_layer().expires_never();  // The WebSocket has timeouts of its own.
+    websocket::stream_base::timeout timeout{};
+    timeout.handshake_timeout = kHandshake;
+    timeout.idle_timeout = kIdle;
+    timeout.keep_alive_pings = true;
+    socket_.set_option(timeout);
+    socket_.set_option(websocket::stream_base::decorator([](websocket::response_type& response) {
+        response.set(http::field::sec_websocket_protocol, kSubprotocol);
+        response.set(http::field::server, "volcast");
+    }));
+    socket_.read_message_max(shared.limits.maxMessageBytes);
+    socket_.auto_fragment(false);
+    setSocketOptions(socket_.next_layer());
+}
+
+asio::awaitable<void> WebSocket::serve(const Request& request) {
+    const auto self = shared_from_this();
+    const auto [error] = co_await socket_.async_accept(request, kAsTuple);
+    if (error) co_return;
+    session_ = session::Session::create(
+        shared_, number_,
+        {.post = [executor = socket_.get_executor()](
+                     std::function<void()> act) { asio::post(executor, std::move(act)); },
+         .wake =
+             [weak = weak_from_this()] {
+                 if (const auto alive = weak.lock()) alive->wake();
+             }});
+    asio::co_spawn(
+        socket_.get_executor(), [self]() { return self->writeAll(); }, asio::detached);
+    co_await readAll();
+    over_ = true;
+    wake();
+    session_.reset();
+    spdlog::info("event=disconnected connection={}", number_);
+}
+
+asio::awaitable<void> WebSocket::readAll() {
+    beast::flat_buffer buffer;
+    while (true) {
+        const auto [error, bytes] = co_await socket_.async_read(buffer, kAsTuple);
+        if (error) {
+            spdlog::debug("event=read_ended connection={} reason=\"{}\"", number_, error.message());
+            co_return;
+        }
+        const auto data = buffer.cdata();
+        const auto form = socket_.got_text() ? session::Form::kJson : session::Form::kBinary;
+        session_->receive({static_cast<const std::byte*>(data.data()), data.size()}, form,
+                          Clock::now());
+        buffer.consume(buffer.size());
+        wake();
+    }
+}
+
+asio::awaitable<void> WebSocket::writeAll() {
+    const auto self = shared_from_this();
+    while (!over_) {
+        session_->tick(Clock::now());
+        bool alive = true;
+        while (alive && !over_) {
+            const auto message = session_->next(Clock::now());
+            if (!message) break;
+            alive = co_await write(*message);
+        }
+        if (over_ || !alive) break;
+        if (session_->closing()) co_return co_await close(*session_->closing());
+        const auto now = Clock::now();
+        wake_.expires_at(session_->deadline(now).value_or(now + std::chrono::hours{1}));
+        (void)co_await wake_.async_wait(kAsTuple);
+    }
+    beast::get_lowest_layer(socket_).close();
+}
+
+asio::awaitable<bool> WebSocket::write(const session::Outgoing& message) {
+    socket_.text(message.text);
+    // A slice is a fragment: what matters is that a reader who stands still is noticed.
+    const std::size_t total = message.head.size() + message.payload.size();
+    for (std::size_t done = 0; done < total || total == 0;) {
+        const bool inHead = done < message.head.size();
+        const auto& part = inHead ? message.head : message.payload;
+        const std::size_t at = inHead ? done : done - message.head.size();
+        const std::size_t size = std::min(kSlice, part.size() - at);
+        std::array<asio::const_buffer, 2> buffers{asio::buffer(part.data() + at, size)};
+        std::size_t sum = size;
+        if (inHead && size == part.size() - at) {
+            const std::size_t more = std::min(kSlice - size, message.payload.size());
+            buffers[1] = asio::buffer(message.payload.data(), more);
+            sum += more;
+        }
+        done += sum;
+        watch(kStuckWrite);
+        const auto [error, bytes] =
+            co_await socket_.async_write_some(done >= total, buffers, kAsTuple);
+        watch_.cancel();
+        if (error || over_) co_return false;
+        if (total == 0) break;
+    }
+    co_return true;
+}
+
+asio::awaitable<void> WebSocket::close(session::Closing closing) {
+    watch(kCloseWithin);
+    spdlog::info("event=closing connection={} code={} reason=\"{}\"", number_, closing.code,
+                 closing.reason);
+    const websocket::close_reason reason{static_cast<websocket::close_code>(closing.code),
+                                         closing.reason};
+    (void)co_await socket_.async_close(reason, kAsTuple);
+    watch_.cancel();
+    beast::get_lowest_layer(socket_).close();
+}
+
+void WebSocket::watch(std::chrono::seconds limit) {
+    watch_.expires_after(limit);
+    watch_.async_wait([weak = weak_from_this()](boost::system::error_code error) {
+        const auto self = weak.lock();
+        if (error || !self) return;
+        spdlog::warn("event=stuck connection={}", self->number_);
+        beast::get_lowest_layer(self->socket_).close();
+    });
+}
+
+void WebSocket::drain() {
+    asio::post(socket_.get_executor(), [weak = weak_from_this()] {
+        const auto self = weak.lock();
+        if (!self || !self->session_) return;
+        self->session_->end({.code = 1012, .reason = "the server is going down"});
+        self->wake();
+    });
+}
+
+}  // namespace volcast::net

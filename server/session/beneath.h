@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+
+#include "renderer/base/file_descriptor.h"
+#include "renderer/base/result.h"
+
+namespace volcast::session {
+
+/// Whether symbolic links may be followed; those that lead out of the folder never are.
+enum class Links { kFollowInside, kRefuse };
+
+/// Opens a folder as the root for openBeneath().
+///
+/// Errors: kNotFound, kInvalidArgument (not a folder), kIo (not readable), each with the path.
+Result<base::FileDescriptor> openFolder(const std::string& path);
+
+/// Opens `path`, relative to `folder`, for reading; the kernel refuses every way out of it.
+///
+/// Errors: kNotFound (missing, or leads out), kIo (not readable).
+Result<base::FileDescriptor> openBeneath(const base::FileDescriptor& folder,
+                                         const std::string& path, Links links);
+
+}  // namespace volcast::session

@@ -1,0 +1,233 @@
+#include "server/session/catalogue.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <spdlog/spdlog.h>
+
+#include "server/session/beneath.h"
+#include "server/session/dataset_message.h"
+
+namespace volcast::session {
+
+namespace {
+
+constexpr std::chrono::seconds kScanAge{1};
+constexpr double kProgressStep = 0.02;
+
+v1::DatasetInfo listed(const std::string& id, const std::string& name) {
+    v1::DatasetInfo info;
+    info.set_id(id);
+    info.set_name(name);
+    return info;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Catalogue>> Catalogue::create(CatalogueDesc desc,
+                                                     workers::RenderService& render) {
+    base::FileDescriptor root;
+    if (!desc.folder.empty()) {
+        auto opened = openFolder(desc.folder);
+        if (!opened) return opened.error();
+        root = std::move(*opened);
+    }
+    return std::unique_ptr<Catalogue>{new Catalogue{std::move(desc), render, std::move(root)}};
+}
+
+Catalogue::Catalogue(CatalogueDesc desc, workers::RenderService& render, base::FileDescriptor root)
+    : desc_{std::move(desc)}, render_{render}, root_{std::move(root)} {
+    if (desc_.folder.empty()) {
+        entries_["demo:mesh"].info = listed("demo:mesh", "Demo: tetrahedral mesh");
+        entries_["demo:volume"].info = listed("demo:volume", "Demo: voxels");
+    } else {
+        rescan();
+    }
+    for (unsigned i = 0; i < std::max(1U, desc_.importsAtOnce); ++i) {
+        threads_.emplace_back([this] { importLoop(); });
+    }
+}
+
+Catalogue::~Catalogue() {
+    {
+        const std::lock_guard lock{mutex_};
+        stopping_ = true;
+        listeners_.clear();
+    }
+    wake_.notify_all();
+    for (std::thread& thread : threads_) thread.join();
+}
+
+void Catalogue::rescan() {
+    scanned_ = std::chrono::steady_clock::now();
+    if (desc_.folder.empty()) return;
+    for (auto& [id, entry] : entries_) entry.present = false;
+    for (FoundDataset& found : scanFolder(desc_.folder, root_)) {
+        const auto [at, isNew] = entries_.try_emplace(found.id);
+        at->second.present = true;
+        at->second.signature = found.signature;
+        if (!isNew) continue;
+        at->second.info = listed(found.id, found.name);
+        tell(at->second.info);
+    }
+    for (auto at = entries_.begin(); at != entries_.end();) {
+        Entry& entry = at->second;
+        const bool busy = entry.info.state() == v1::DATASET_STATE_IMPORTING;
+        if (entry.present || entry.summary || busy) {
+            ++at;
+            continue;
+        }
+        entry.info.set_state(v1::DATASET_STATE_FAILED);
+        entry.info.set_error(at->first + ": no longer in the data folder");
+        tell(entry.info);
+        at = entries_.erase(at);
+    }
+}
+
+v1::DatasetList Catalogue::list() {
+    const std::lock_guard lock{mutex_};
+    if (std::chrono::steady_clock::now() - scanned_ > kScanAge) rescan();
+    v1::DatasetList all;
+    for (const auto& [id, entry] : entries_) *all.add_datasets() = entry.info;
+    return all;
+}
+
+Result<v1::DatasetInfo> Catalogue::open(const std::string& id) {
+    const std::lock_guard lock{mutex_};
+    rescan();
+    const auto found = entries_.find(id);
+    if (found == entries_.end()) {
+        return fail(ErrorCode::kNotFound, "dataset \"" + id + "\" is not in the data folder",
+                    "dataset");
+    }
+    Entry& entry = found->second;
+    if (entry.info.state() == v1::DATASET_STATE_IMPORTING) return entry.info;
+    if (!entry.present) {
+        return fail(ErrorCode::kNotFound,
+                    "dataset \"" + id + "\" is no longer in the data folder; version " +
+                        std::to_string(entry.version) + " of it stays in use",
+                    "dataset");
+    }
+    const bool current = entry.summary && entry.importSignature == entry.signature;
+    if (!current || entry.info.state() == v1::DATASET_STATE_FAILED) startImport(entry);
+    return entry.info;
+}
+
+Result<DatasetStanding> Catalogue::require(const std::string& id) {
+    const DatasetStanding now = standing(id);
+    if (now.loaded) return now;
+    const auto opened = open(id);
+    if (!opened) return opened.error();
+    return standing(id);
+}
+
+void Catalogue::startImport(Entry& entry) {
+    entry.importSignature = entry.signature;
+    entry.info.set_state(v1::DATASET_STATE_IMPORTING);
+    entry.info.set_stage("waiting");
+    entry.info.set_progress(0);
+    entry.info.clear_error();
+    queue_.push_back(entry.info.id());
+    tell(entry.info);
+    wake_.notify_one();
+}
+
+DatasetStanding Catalogue::standing(const std::string& id) const {
+    const std::lock_guard lock{mutex_};
+    const auto found = entries_.find(id);
+    if (found == entries_.end()) return {};
+    const Entry& entry = found->second;
+    return {.loaded = entry.summary.has_value(),
+            .failed = entry.info.state() == v1::DATASET_STATE_FAILED,
+            .version = entry.version,
+            .error = entry.info.error()};
+}
+
+scene::Summaries Catalogue::summaries(const std::vector<std::string>& ids) const {
+    const std::lock_guard lock{mutex_};
+    scene::Summaries all;
+    for (const std::string& id : ids) {
+        const auto found = entries_.find(id);
+        if (found != entries_.end() && found->second.summary) all[id] = *found->second.summary;
+    }
+    return all;
+}
+
+bool Catalogue::importing() const {
+    const std::lock_guard lock{mutex_};
+    return running_ > 0;
+}
+
+std::uint64_t Catalogue::subscribe(Listener listener) {
+    const std::lock_guard lock{mutex_};
+    listeners_.emplace(++lastListener_, std::move(listener));
+    return lastListener_;
+}
+
+void Catalogue::unsubscribe(std::uint64_t number) {
+    const std::lock_guard lock{mutex_};
+    listeners_.erase(number);
+}
+
+void Catalogue::tell(const v1::DatasetInfo& info) {
+    for (const auto& [number, listener] : listeners_) listener(info);
+}
+
+void Catalogue::importLoop() {
+    while (true) {
+        std::string id;
+        {
+            std::unique_lock lock{mutex_};
+            wake_.wait(lock, [this] { return stopping_ || !queue_.empty(); });
+            if (stopping_) return;
+            id = std::move(queue_.front());
+            queue_.pop_front();
+            ++running_;
+        }
+        importOne(id);
+        const std::lock_guard lock{mutex_};
+        --running_;
+    }
+}
+
+void Catalogue::importOne(const std::string& id) {
+    const std::string path = desc_.folder.empty() ? id : desc_.folder + "/" + id;
+    workers::ImportRequest request;
+    request.path = path;
+    auto imported = desc_.importer(
+        request, desc_.imports,
+        [&](const std::string& stage, double fraction) { progressed(id, stage, fraction); });
+    const std::lock_guard lock{mutex_};
+    Entry& entry = entries_.at(id);
+    if (imported) {
+        spdlog::info("event=imported dataset=\"{}\" format=\"{}\" ms={:.0f} peak_mb={:.0f}", id,
+                     imported->format, imported->ms, imported->peakMb);
+        finished(entry, std::move(*imported));
+    } else {
+        spdlog::warn("event=import_failed dataset=\"{}\" code={} error=\"{}\"", id,
+                     name(imported.error().code), imported.error().message);
+        entry.info.set_state(v1::DATASET_STATE_FAILED);
+        entry.info.set_error(imported.error().message);
+    }
+    entry.info.clear_stage();
+    tell(entry.info);
+}
+
+void Catalogue::progressed(const std::string& id, const std::string& stage, double fraction) {
+    const std::lock_guard lock{mutex_};
+    v1::DatasetInfo& info = entries_.at(id).info;
+    if (info.stage() == stage && fraction - info.progress() < kProgressStep) return;
+    info.set_stage(stage);
+    info.set_progress(std::clamp(fraction, 0.0, 1.0));
+    tell(info);
+}
+
+void Catalogue::finished(Entry& entry, workers::ImportedDataset imported) {
+    const std::string id = entry.info.id();
+    entry.info = describe(id, entry.info.name(), imported.summary, imported.warnings);
+    entry.info.set_version(++entry.version);
+    entry.summary = std::move(imported.summary);
+    render_.addDataset(id, std::move(imported.packed));
+}
+
+}  // namespace volcast::session

@@ -1,0 +1,119 @@
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "renderer/scene/scene.h"
+#include "server/session/folder_scan.h"
+#include "server/workers/import_service.h"
+#include "server/workers/render_service.h"
+#include "volcast/v1/session.pb.h"
+
+namespace volcast::session {
+
+/// Runs one import to its end; workers::runImport.
+using Importer = std::function<Result<workers::ImportedDataset>(
+    const workers::ImportRequest&, const workers::ImportSettings&,
+    const std::function<void(const std::string& stage, double fraction)>&)>;
+
+struct CatalogueDesc {
+    std::string folder;  ///< Empty: the built-in demo datasets.
+    workers::ImportSettings imports;
+    unsigned importsAtOnce = 1;
+    Importer importer = workers::runImport;
+};
+
+/// What a view has to know of one dataset.
+struct DatasetStanding {
+    bool loaded = false;        ///< Can be drawn now.
+    bool failed = false;        ///< Its latest import failed.
+    std::uint64_t version = 0;  ///< Of what is loaded; 0: nothing.
+    std::string error;          ///< Where `failed`.
+};
+
+/// The datasets of one folder: listed cheaply, imported on demand on threads of its own, given to
+/// the render service when ready. What was loaded stays usable whatever happens to its file.
+///
+/// All methods may be called from any thread. Names are looked up in the list, never in the file
+/// system, so they cannot lead out of the folder.
+class Catalogue {
+public:
+    using Listener = std::function<void(const v1::DatasetInfo&)>;
+
+    /// `render` must outlive the catalogue.
+    ///
+    /// Errors: kNotFound, kInvalidArgument, kIo for a folder that cannot be listed.
+    static Result<std::unique_ptr<Catalogue>> create(CatalogueDesc desc,
+                                                     workers::RenderService& render);
+    Catalogue(const Catalogue&) = delete;
+    Catalogue& operator=(const Catalogue&) = delete;
+    Catalogue(Catalogue&&) = delete;
+    Catalogue& operator=(Catalogue&&) = delete;
+    /// Waits for imports that run; those that wait are dropped.
+    ~Catalogue();
+
+    /// All datasets; looks into the folder again where the last look is older than a second.
+    v1::DatasetList list();
+
+    /// Starts an import where the dataset was never read, failed before, or changed on disk.
+    ///
+    /// Errors: kNotFound (no such dataset, or its file vanished; what is loaded stays).
+    Result<v1::DatasetInfo> open(const std::string& id);
+
+    /// As open(), but content with what is loaded, be it of an older file.
+    Result<DatasetStanding> require(const std::string& id);
+
+    [[nodiscard]] DatasetStanding standing(const std::string& id) const;
+    /// Summaries of those of `ids` that are loaded.
+    [[nodiscard]] scene::Summaries summaries(const std::vector<std::string>& ids) const;
+    [[nodiscard]] bool importing() const;
+
+    /// `listener` hears of every change, under a lock: it must not call back. Returns its number.
+    std::uint64_t subscribe(Listener listener);
+    void unsubscribe(std::uint64_t number);
+
+private:
+    struct Entry {
+        v1::DatasetInfo info;
+        std::uint64_t signature = 0;        ///< Of the files as they are now.
+        std::uint64_t importSignature = 0;  ///< Of the files when the latest import began.
+        bool present = true;                ///< Still in the folder.
+        std::optional<data::DatasetSummary> summary;  ///< Of what is loaded.
+        std::uint64_t version = 0;
+    };
+
+    Catalogue(CatalogueDesc desc, workers::RenderService& render, base::FileDescriptor root);
+    void rescan();
+    void startImport(Entry& entry);
+    void importLoop();
+    void importOne(const std::string& id);
+    void progressed(const std::string& id, const std::string& stage, double fraction);
+    void finished(Entry& entry, workers::ImportedDataset imported);
+    void tell(const v1::DatasetInfo& info);
+
+    const CatalogueDesc desc_;
+    workers::RenderService& render_;
+    const base::FileDescriptor root_;
+    mutable std::mutex mutex_;
+    std::condition_variable wake_;
+    std::map<std::string, Entry> entries_;
+    std::chrono::steady_clock::time_point scanned_{};
+    std::map<std::uint64_t, Listener> listeners_;
+    std::uint64_t lastListener_ = 0;
+    std::deque<std::string> queue_;
+    unsigned running_ = 0;
+    bool stopping_ = false;
+    std::vector<std::thread> threads_;
+};
+
+}  // namespace volcast::session

@@ -1,0 +1,178 @@
+#include "server/session/view_scene.h"
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include "renderer/scene/default_scene.h"
+#include "renderer/scene/validate.h"
+#include "renderer/worker/scene_message.h"
+
+namespace volcast::session {
+
+namespace {
+
+std::vector<std::string> datasetsOf(const scene::Scene& scene) {
+    std::set<std::string> ids;
+    for (const scene::Layer& layer : scene.layers) ids.insert(layer.dataset);
+    return {ids.begin(), ids.end()};
+}
+
+/// The error with its field as a path from the message.
+Error within(const std::string& part, Error error) {
+    if (error.field.empty()) {
+        error.field = part;
+    } else if (!error.field.starts_with(part + ".") && error.field != part) {
+        error.field = part + "." + error.field;
+    }
+    return error;
+}
+
+}  // namespace
+
+std::vector<std::string> ViewScene::Waiting::datasets() const {
+    return scene ? datasetsOf(*scene) : std::vector{defaultOf};
+}
+
+Result<scene::PictureSize> ViewScene::sizeFrom(const v1::Viewport& message) const {
+    // Beyond int the side is too long anyway, and says so as the largest int.
+    const auto side = [](std::uint32_t pixels) {
+        return static_cast<int>(std::min(pixels, std::uint32_t{0x7fffffff}));
+    };
+    const scene::PictureSize size{side(message.width()), side(message.height())};
+    if (const auto valid = scene::validate(size); !valid) return within("viewport", valid.error());
+    const std::uint64_t pixels = std::uint64_t{message.width()} * message.height();
+    if (pixels > maxPixels_) {
+        return fail(ErrorCode::kLimitExceeded,
+                    "a view of " + std::to_string(pixels) + " pixels; the limit is " +
+                        std::to_string(maxPixels_),
+                    "viewport");
+    }
+    return size;
+}
+
+Result<bool> ViewScene::require(const Waiting& next) {
+    bool loaded = true;
+    for (const std::string& id : next.datasets()) {
+        const auto standing = catalogue_.require(id);
+        if (!standing) {
+            const std::string path = next.scene ? "scene.layers" : "dataset";
+            return fail(standing.error().code, standing.error().message, path);
+        }
+        loaded = loaded && standing->loaded;
+    }
+    return loaded;
+}
+
+Result<scene::Scene> ViewScene::resolve(const Waiting& next) const {
+    const scene::Summaries summaries = catalogue_.summaries(next.datasets());
+    scene::Scene scene;
+    if (next.scene) {
+        scene = *next.scene;
+    } else {
+        scene = scene::defaultScene(next.defaultOf, summaries.at(next.defaultOf));
+        if (next.camera) scene.camera = *next.camera;
+    }
+    if (const auto valid = scene::validate(scene, summaries); !valid) {
+        return within("scene", valid.error());
+    }
+    return scene;
+}
+
+Result<SceneChange> ViewScene::accept(Waiting next) {
+    const auto loaded = require(next);
+    if (!loaded) return loaded.error();
+    if (!*loaded) {
+        waiting_ = std::move(next);
+        return SceneChange::kWaiting;
+    }
+    auto scene = resolve(next);
+    if (!scene) return scene.error();
+    scene_ = std::move(*scene);
+    waiting_.reset();
+    return SceneChange::kDraw;
+}
+
+Result<SceneChange> ViewScene::open(const v1::OpenView& message) {
+    const auto size = sizeFrom(message.viewport());
+    if (!size) return size.error();
+    Waiting next;
+    if (message.has_scene()) {
+        auto scene = worker::sceneFrom(message.scene());
+        if (!scene) return within("scene", scene.error());
+        next.scene = std::move(*scene);
+    } else if (!message.dataset().empty()) {
+        next.defaultOf = message.dataset();
+    } else {
+        const v1::DatasetList list = catalogue_.list();
+        if (list.datasets().empty()) {
+            return fail(ErrorCode::kNotFound, "the data folder holds nothing to show", "dataset");
+        }
+        next.defaultOf = list.datasets(0).id();
+    }
+    const auto change = accept(std::move(next));
+    if (!change) return change.error();
+    size_ = *size;
+    inputSeq_ = message.input_seq();
+    return *change;
+}
+
+Result<SceneChange> ViewScene::update(const v1::Update& message) {
+    if (message.input_seq() <= inputSeq_) return SceneChange::kNone;
+    scene::PictureSize size = size_;
+    if (message.has_viewport()) {
+        const auto wanted = sizeFrom(message.viewport());
+        if (!wanted) return wanted.error();
+        size = *wanted;
+    }
+    std::optional<scene::Camera> camera;
+    if (message.has_camera()) {
+        const auto wanted = worker::cameraFrom(message.camera());
+        if (!wanted) return within("camera", wanted.error());
+        camera = *wanted;
+    }
+    SceneChange change = scene_ ? SceneChange::kDraw : SceneChange::kWaiting;
+    if (message.has_scene()) {
+        auto scene = worker::sceneFrom(message.scene());
+        if (!scene) return within("scene", scene.error());
+        if (camera) scene->camera = *camera;
+        auto accepted = accept({.scene = std::move(*scene), .seqBefore = shownSeq()});
+        if (!accepted) return accepted.error();
+        change = *accepted;
+    }
+    if (camera && scene_) scene_->camera = *camera;
+    if (camera && waiting_) {
+        if (waiting_->scene) waiting_->scene->camera = *camera;
+        waiting_->camera = camera;
+    }
+    size_ = size;
+    inputSeq_ = message.input_seq();
+    return change;
+}
+
+Result<SceneChange> ViewScene::datasetChanged(const std::string& id) {
+    if (waiting_ && std::ranges::count(waiting_->datasets(), id) != 0) {
+        const std::vector<std::string> needed = waiting_->datasets();
+        const DatasetStanding standing = catalogue_.standing(id);
+        if (!standing.loaded && standing.failed) return fail(ErrorCode::kIo, standing.error);
+        if (catalogue_.summaries(needed).size() < needed.size()) return SceneChange::kNone;
+        auto scene = resolve(*waiting_);
+        waiting_.reset();
+        if (!scene) return scene.error();
+        scene_ = std::move(*scene);
+        return SceneChange::kDraw;
+    }
+    if (!scene_ || std::ranges::count(datasetsOf(*scene_), id) == 0) return SceneChange::kNone;
+    const auto valid = scene::validate(*scene_, catalogue_.summaries(datasetsOf(*scene_)));
+    if (!valid) return within("scene", valid.error());
+    return SceneChange::kDraw;
+}
+
+std::uint64_t ViewScene::dataVersion() const {
+    std::uint64_t sum = 0;
+    if (!scene_) return sum;
+    for (const std::string& id : datasetsOf(*scene_)) sum += catalogue_.standing(id).version;
+    return sum;
+}
+
+}  // namespace volcast::session

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "renderer/base/result.h"
+#include "renderer/scene/scene.h"
+#include "server/session/catalogue.h"
+#include "volcast/v1/session.pb.h"
+
+namespace volcast::session {
+
+/// What an accepted message or a change of data did to a view.
+enum class SceneChange {
+    kNone,     ///< Nothing to draw: an old update, or news about other data.
+    kDraw,     ///< There is something new to draw.
+    kWaiting,  ///< The new scene needs data that is being imported; the old one stays.
+};
+
+/// What one view shows: its last good scene, and the one that waits for data.
+///
+/// Every method either succeeds or leaves all as it was.
+class ViewScene {
+public:
+    ViewScene(Catalogue& catalogue, std::uint64_t maxPixels)
+        : catalogue_{catalogue}, maxPixels_{maxPixels} {}
+
+    /// Errors: as sceneFrom() and scene::validate(), with `field` relative to the message;
+    /// kNotFound for unknown data; kLimitExceeded for too many pixels.
+    Result<SceneChange> open(const v1::OpenView& message);
+    Result<SceneChange> update(const v1::Update& message);
+
+    /// Reacts to news about `id`. Errors: kIo with the importer's words where the view waits for
+    /// it in vain; as scene::validate() where the scene does not suit the data that came.
+    Result<SceneChange> datasetChanged(const std::string& id);
+
+    [[nodiscard]] const std::optional<scene::Scene>& scene() const noexcept { return scene_; }
+    [[nodiscard]] scene::PictureSize size() const noexcept { return size_; }
+    [[nodiscard]] bool waiting() const noexcept { return waiting_.has_value(); }
+    /// Newest update that a picture of scene() shows.
+    [[nodiscard]] std::uint64_t shownSeq() const noexcept {
+        return waiting_ ? waiting_->seqBefore : inputSeq_;
+    }
+    /// Sum of the versions of the scene's datasets: grows when one is imported again.
+    [[nodiscard]] std::uint64_t dataVersion() const;
+
+private:
+    /// A scene whose data is not all there; `defaultOf` names the dataset where the client gave
+    /// none.
+    struct Waiting {
+        std::optional<scene::Scene> scene = {};
+        std::string defaultOf = {};
+        std::optional<scene::Camera> camera = {};  ///< Replaces the default scene's.
+        std::uint64_t seqBefore = 0;
+        [[nodiscard]] std::vector<std::string> datasets() const;
+    };
+    Result<scene::PictureSize> sizeFrom(const v1::Viewport& message) const;
+    /// Asks for the data of `next`; true where all of it is loaded.
+    Result<bool> require(const Waiting& next);
+    Result<scene::Scene> resolve(const Waiting& next) const;
+    /// Takes `next` as the scene, or lets it wait.
+    Result<SceneChange> accept(Waiting next);
+
+    Catalogue& catalogue_;
+    std::uint64_t maxPixels_;
+    std::optional<scene::Scene> scene_;
+    std::optional<Waiting> waiting_;
+    scene::PictureSize size_{512, 512};
+    std::uint64_t inputSeq_ = 0;
+};
+
+}  // namespace volcast::session

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+
+#include "server/net/server.h"
+#include "server/session/shared.h"
+#include "server/workers/import_service.h"
+#include "server/workers/render_service.h"
+
+namespace volcast {
+
+/// All of `volcast serve`: one struct a part, defaults in place.
+struct ServeSettings {
+    net::ListenSettings listen;
+    std::string dataFolder;  ///< Empty: the built-in demo.
+    workers::RenderSettings render;
+    workers::ImportSettings imports;
+    unsigned importsAtOnce = 1;
+    unsigned encodeThreads = 2;
+    session::SessionLimits limits;
+    std::string logLevel = "info";
+    std::string serverName;  ///< Told to clients, with the version.
+    std::string sourceUrl;   ///< Told to clients: the AGPL asks for it.
+};
+
+}  // namespace volcast
