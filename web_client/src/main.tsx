@@ -96,12 +96,12 @@ function reported(report: PictureReport): void {
   };
   state.picture.value = shown;
   const { dataset } = picture.element;
-  dataset["view"] = String(report.view);
-  dataset["sequence"] = String(report.sequence);
-  dataset["inputSeq"] = String(header.inputSeq);
-  dataset["lossless"] = String(header.lossless);
-  dataset["workerGeneration"] = String(header.workerGeneration);
-  dataset["size"] = `${header.width}x${header.height}`;
+  dataset.view = String(report.view);
+  dataset.sequence = String(report.sequence);
+  dataset.inputSeq = String(header.inputSeq);
+  dataset.lossless = String(header.lossless);
+  dataset.workerGeneration = String(header.workerGeneration);
+  dataset.size = `${header.width}x${header.height}`;
   keepHeight(picture, header.width / Math.max(1, header.height));
 }
 

@@ -5,7 +5,7 @@ import { DataList } from "./data_list";
 import { Help } from "./help";
 import { Icon, IconButton } from "./icons";
 import { MapEditor } from "./map_editor";
-import { FieldPicker, ModelPicker } from "./model_picker";
+import { BackgroundPicker, FieldPicker, ModelPicker } from "./model_picker";
 import { Notices } from "./notices";
 import type { AppPort } from "./port";
 import { Readout } from "./readout";
@@ -95,6 +95,7 @@ export function App({ state, port, helpOpen, picture }: Props) {
           <ModelPicker state={state} />
           <FieldPicker state={state} />
           <MapEditor state={state} />
+          <BackgroundPicker state={state} />
           <Footer state={state} />
         </div>
       </aside>

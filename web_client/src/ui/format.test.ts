@@ -4,7 +4,7 @@ import { formatBytes, formatCount, formatMs, formatNumber, parseNumber } from ".
 describe("numbers for people", () => {
   it("have four digits and powers of ten where these are shorter", () => {
     expect(formatNumber(0)).toBe("0");
-    expect(formatNumber(3.14159)).toBe("3.142");
+    expect(formatNumber(Math.PI)).toBe("3.142");
     expect(formatNumber(-12345)).toBe("-12350");
     expect(formatNumber(1234567)).toBe("1.235e6");
     expect(formatNumber(1e-9)).toBe("1e-9");

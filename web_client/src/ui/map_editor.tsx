@@ -102,7 +102,7 @@ function Plot({ state, selected }: Props & { readonly selected: { value: number 
     <div class="map-plot">
       {/* biome-ignore lint/a11y/noStaticElementInteractions: the add button is the keyboard's way */}
       <div class="map-ground" onDblClick={add}>
-        <canvas ref={canvas} role="presentation" />
+        <canvas ref={canvas} />
         {width.value > 0 && (
           <MapPoints
             state={state}

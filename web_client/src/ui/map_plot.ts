@@ -80,12 +80,14 @@ function drawHistogram(context: CanvasRenderingContext2D, content: PlotContent, 
   const bin = (fieldMax - fieldMin) / histogram.length;
   if (!(bin > 0)) return;
   context.fillStyle = ink;
+  context.beginPath(); // One shape: bars that meet leave no seam.
   barHeights(histogram).forEach((height, i) => {
     const left = xOf(box, fieldMin + i * bin);
     const right = xOf(box, fieldMin + (i + 1) * bin);
     const top = yOf(0.92 * height);
-    context.fillRect(left, top, right - left, kPlotHeight - top);
+    context.rect(left, top, right - left, kPlotHeight - top);
   });
+  context.fill();
 }
 
 /** One column a device pixel: colour and opacity as they are, curved where the map is straight. */

@@ -140,7 +140,6 @@ export function MapPoints({ state, box, selected, showsOpacity }: Props) {
         const says = `Point ${index + 1} of ${map.length}: value ${formatNumber(point.value)}, opacity ${formatNumber(100 * opacity, 3)} %`;
         return (
           <button
-            // biome-ignore lint/suspicious/noArrayIndexKey: a point is its place in the map
             key={index}
             type="button"
             class="map-point"

@@ -3,7 +3,6 @@ import { DatasetKind } from "../net/gen/volcast/v1/session_pb";
 import { changeField, changeLayer, changeScene, modelsOf } from "../state/actions";
 import type { AppState } from "../state/app_state";
 import { fromHex, toHex } from "../transfer/srgb";
-import { formatNumber } from "./format";
 
 interface Props {
   readonly state: AppState;
@@ -111,36 +110,42 @@ export function ModelPicker({ state }: Props) {
   );
 }
 
-/** Which of the dataset's fields is shown, with its range. */
+/** Which of the dataset's fields is shown. */
 export function FieldPicker({ state }: Props) {
   const fields = state.dataset.value?.fields ?? [];
   const field = state.field.value;
-  const scene = state.scene.value;
-  if (!field || !scene) return null;
-  const unit = field.unit ? ` ${field.unit}` : "";
+  if (!field || !state.scene.value) return null;
   return (
     <section class="section" aria-labelledby="field-heading">
-      <h2 id="field-heading">Field</h2>
-      {fields.length > 1 ? (
-        <select
-          class="wide"
-          aria-labelledby="field-heading"
-          value={field.name}
-          onChange={(e) => changeField(state, e.currentTarget.value)}
-        >
-          {fields.map((f) => (
-            <option key={f.name} value={f.name}>
-              {f.name}
-            </option>
-          ))}
-        </select>
-      ) : (
-        <p class="only">{field.name}</p>
-      )}
-      <p class="hint">
-        From {formatNumber(field.min)} to {formatNumber(field.max)}
-        {unit}
-      </p>
+      <div class="line">
+        <h2 id="field-heading">Field</h2>
+        {fields.length > 1 ? (
+          <select
+            class="grow"
+            aria-labelledby="field-heading"
+            value={field.name}
+            onChange={(e) => changeField(state, e.currentTarget.value)}
+          >
+            {fields.map((f) => (
+              <option key={f.name} value={f.name}>
+                {f.name}
+              </option>
+            ))}
+          </select>
+        ) : (
+          <span class="only">{field.name}</span>
+        )}
+      </div>
+    </section>
+  );
+}
+
+/** What lies behind the data. */
+export function BackgroundPicker({ state }: Props) {
+  const scene = state.scene.value;
+  if (!scene) return null;
+  return (
+    <section class="section" aria-label="Background">
       <label class="line">
         <span>Background</span>
         <input

@@ -37,7 +37,7 @@ export function Readout({ state }: Props) {
   return (
     <details class="readout">
       <summary>
-        <span>{Math.round(state.framesPerSecond.value)} fps</span>
+        <span>{Math.round(state.framesPerSecond.value) || "–"} fps</span>
         <span>{latency ? formatMs(latency.p50) : "– ms"}</span>
         <span>{formatBytes(picture.bytes)}</span>
         <span class="spoken">frame rate, input to drawn, bytes a frame</span>

@@ -75,11 +75,11 @@ export function controlCamera(element: HTMLElement, port: CameraPort): () => voi
   listen("pointerdown", (event) => {
     fingers.set(event.pointerId, { x: event.clientX, y: event.clientY });
     element.setPointerCapture(event.pointerId);
-    element.dataset["dragging"] = "";
+    element.dataset.dragging = "";
   });
   const released = (event: PointerEvent): void => {
     fingers.delete(event.pointerId);
-    if (fingers.size === 0) delete element.dataset["dragging"];
+    if (fingers.size === 0) delete element.dataset.dragging;
   };
   listen("pointerup", (event) => {
     moved(event);
