@@ -15,11 +15,11 @@ namespace volcast::data {
 /// A field as a file holds it. Items are counted in the order of MeshInput.
 struct FieldInput {
     std::string name;  ///< Unique; bytes that are no UTF-8 become '?'.
-    std::string unit;
+    std::string unit = {};
     Association association = Association::kVertex;
     /// One a time step: points (kVertex), cells (kCell) or 4 * cells (kCellVertex) values.
-    std::vector<std::vector<double>> steps;
-    std::vector<double> times;  ///< One a step; empty means 0, 1, 2, ...
+    std::vector<std::vector<double>> steps = {};
+    std::vector<double> times = {};  ///< One a step; empty means 0, 1, 2, ...
 };
 
 /// Tetrahedra as a file holds them, in any order and orientation.

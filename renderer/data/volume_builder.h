@@ -14,8 +14,8 @@ namespace volcast::data {
 /// One scalar a voxel, as a file holds it.
 struct ChannelInput {
     std::string name;  ///< Unique; bytes that are no UTF-8 become '?'.
-    std::string unit;
-    std::vector<std::byte> voxels;  ///< Native byte order, x fastest, no padding.
+    std::string unit = {};
+    std::vector<std::byte> voxels = {};  ///< Native byte order, x fastest, no padding.
 };
 
 /// Voxels as a file holds them; members as in Volume.
@@ -25,7 +25,7 @@ struct VolumeInput {
     glm::dvec3 origin{0.0};
     glm::dmat3 direction{1.0};  ///< Made exactly orthonormal; may be off by 1e-3.
     VoxelType type = VoxelType::kF32;
-    std::vector<ChannelInput> channels;
+    std::vector<ChannelInput> channels = {};
 };
 
 inline constexpr int kMaxVolumeSide = 1 << 15;

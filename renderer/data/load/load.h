@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "renderer/base/result.h"
+#include "renderer/data/mesh_builder.h"
+#include "renderer/data/volume_builder.h"
+
+namespace volcast::data::load {
+
+/// What to read, and how to complete what its files do not say.
+struct Request {
+    std::string path;                        ///< A file, a folder, "demo:mesh" or "demo:volume".
+    std::string tetgenSwitches = "pq1.414";  ///< For surfaces; point sets use none.
+    glm::dvec3 spacing{0.0};                 ///< Of image stacks; 0: 1.
+    std::uint64_t maxMemoryBytes = std::uint64_t{8} << 30;
+};
+
+/// A file's content before it is made ready to draw.
+struct Loaded {
+    std::variant<MeshInput, VolumeInput> input = {};
+    std::string format = {};                 ///< As users see it: "VTU", "TetGen", "TIFF stack".
+    std::vector<std::string> warnings = {};  ///< What was changed or left out on the way.
+};
+
+/// Told how far a stage is, from 0 to 1.
+using Progress = std::function<void(const std::string& stage, double fraction)>;
+
+/// Everything that reading `path` touches besides system folders, for the sandbox: its folder.
+///
+/// Errors: kNotFound, kIo (permission), kUnsupported (no loader takes it), kInvalidArgument (not a
+/// plain file or folder); all name the path.
+Result<std::vector<std::string>> neededPaths(const std::string& path);
+
+/// True where the format of `path` is read by a Python program, which load() starts.
+bool needsPython(const std::string& path);
+
+/// Reads a dataset. Messages of errors start with the file at fault.
+///
+/// Errors: kNotFound, kIo, kUnsupported, kInvalidArgument, kLimitExceeded.
+Result<Loaded> load(const Request& request, const Progress& progress);
+
+}  // namespace volcast::data::load

@@ -1,0 +1,151 @@
+#include "server/import/import_job.h"
+
+#include <algorithm>
+#include <chrono>
+#include <new>
+#include <sys/resource.h>
+#include <utility>
+
+#include "renderer/base/sandbox.h"
+#include "renderer/data/packed_dataset.h"
+#include "volcast/internal/v1/import.pb.h"
+
+namespace volcast::import {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+namespace messages = volcast::internal::v1;
+
+/// Address space that a program needs besides what it reads: libraries and stacks.
+constexpr std::uint64_t kOwnAddressSpace = std::uint64_t{512} << 20;
+
+double millisecondsSince(Clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+/// Of this process and the reader it may have had; both were there at one time.
+double peakMb() {
+    rusage own{};
+    rusage children{};
+    ::getrusage(RUSAGE_SELF, &own);
+    ::getrusage(RUSAGE_CHILDREN, &children);
+    return static_cast<double>(own.ru_maxrss + children.ru_maxrss) / 1024.0;
+}
+
+/// Sends progress, but not more often than anybody can see.
+class ProgressSender {
+public:
+    explicit ProgressSender(worker::Channel& channel) : channel_{channel} {}
+
+    void operator()(const std::string& stage, double fraction) {
+        constexpr double kPauseMs = 50.0;
+        const auto now = Clock::now();
+        if (stage == stage_ && millisecondsSince(last_) < kPauseMs) return;
+        stage_ = stage;
+        last_ = now;
+        messages::FromImport message;
+        message.mutable_progress()->set_stage(stage);
+        message.mutable_progress()->set_fraction(std::clamp(fraction, 0.0, 1.0));
+        // Whoever does not listen any more kills us; a lost progress message changes nothing.
+        static_cast<void>(channel_.send(message));
+    }
+
+private:
+    worker::Channel& channel_;
+    std::string stage_;
+    Clock::time_point last_;
+};
+
+base::SandboxPolicy policyFor(const data::load::Request& request,
+                              std::vector<std::string> datasetPaths) {
+    base::SandboxPolicy policy;
+    policy.readable = std::move(datasetPaths);
+    policy.maxFileBytes = request.maxMemoryBytes;
+#ifndef __SANITIZE_ADDRESS__  // Its shadow memory alone takes terabytes of address space.
+    policy.maxAddressSpaceBytes = request.maxMemoryBytes + kOwnAddressSpace;
+#endif
+    if (!data::load::needsPython(request.path)) return policy;
+    policy.mayExecute = true;  // Until its reader has started.
+    for (const char* path :
+         {"/usr", "/lib", "/lib64", "/bin", "/etc/ld.so.cache", "/etc/python3.11", "/etc/python3",
+          "/etc/localtime", "/dev/null", "/dev/urandom", "/proc/self", "/proc/cpuinfo",
+          "/proc/meminfo", "/sys/devices/system/cpu"}) {
+        policy.readable.emplace_back(path);
+    }
+    return policy;
+}
+
+struct Outcome {
+    base::FileDescriptor packed;
+    std::string format;
+    std::vector<std::string> warnings;
+};
+
+Result<data::Dataset> build(data::load::Loaded& loaded) {
+    if (auto* mesh = std::get_if<data::MeshInput>(&loaded.input)) {
+        auto built = data::buildMesh(std::move(*mesh));
+        if (!built) return built.error();
+        return data::Dataset{std::move(*built)};
+    }
+    auto built = data::buildVolume(std::move(std::get<data::VolumeInput>(loaded.input)));
+    if (!built) return built.error();
+    return data::Dataset{std::move(*built)};
+}
+
+Result<Outcome> import(const data::load::Request& request, ProgressSender& progress) {
+    const auto paths = data::load::neededPaths(request.path);
+    if (!paths) return paths.error();
+    auto sandboxed = base::enterSandbox(policyFor(request, *paths));
+    if (!sandboxed) return sandboxed.error();
+    const auto named = [&](const Error& error) {
+        return fail(error.code, request.path + ": " + error.message, error.field);
+    };
+    auto loaded = data::load::load(
+        request, [&](const std::string& stage, double fraction) { progress(stage, fraction); });
+    if (!loaded) return loaded.error();
+    progress("build", 0.0);
+    const auto dataset = build(*loaded);
+    if (!dataset) return named(dataset.error());
+    progress("pack", 0.0);
+    auto packed = data::pack(*dataset);
+    if (!packed) return named(packed.error());
+    return Outcome{.packed = std::move(*packed),
+                   .format = std::move(loaded->format),
+                   .warnings = std::move(loaded->warnings)};
+}
+
+/// The same, with the ends of memory and of the library's patience as errors.
+Result<Outcome> importCatching(const data::load::Request& request, ProgressSender& progress) {
+    try {
+        return import(request, progress);
+    } catch (const std::bad_alloc&) {
+        return fail(ErrorCode::kLimitExceeded, request.path + ": needs more memory than the " +
+                                                   std::to_string(request.maxMemoryBytes >> 20) +
+                                                   " MiB it may use");
+    } catch (const std::exception& error) {
+        return fail(ErrorCode::kInvalidArgument, request.path + ": " + error.what());
+    }
+}
+
+}  // namespace
+
+Result<void> runJob(const data::load::Request& request, worker::Channel& channel) {
+    const auto start = Clock::now();
+    ProgressSender progress{channel};
+    const auto outcome = importCatching(request, progress);
+    messages::FromImport message;
+    if (!outcome) {
+        message.mutable_refused()->set_code(static_cast<int>(outcome.error().code));
+        message.mutable_refused()->set_message(outcome.error().message);
+        return channel.send(message);
+    }
+    messages::Imported& imported = *message.mutable_imported();
+    imported.set_format(outcome->format);
+    for (const std::string& warning : outcome->warnings) imported.add_warnings(warning);
+    imported.set_ms(millisecondsSince(start));
+    imported.set_peak_mb(peakMb());
+    return channel.send(message, {outcome->packed.get()});
+}
+
+}  // namespace volcast::import
