@@ -108,6 +108,11 @@ Result<OpenDisplay> openDisplay(const std::string& gpu) {
                 initialised(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, "surfaceless");
             if (opened) return opened;
         }
+        if (queryDevices().empty()) {
+            return fail(ErrorCode::kUnsupported,
+                        "no EGL: it offers neither a surfaceless platform nor a device (is an EGL "
+                        "driver installed?)");
+        }
         return openDevice(0);
     }
     int index = -1;
