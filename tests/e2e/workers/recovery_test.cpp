@@ -1,0 +1,215 @@
+// Real signals against real workers: after each loss the next picture equals the one before, bit
+// for bit, the views were told, and no process is left behind.
+#include <csignal>
+#include <cstring>
+#include <filesystem>
+#include <unistd.h>
+
+#include "tests/e2e/workers/service_fixture.h"
+
+namespace volcast::test {
+namespace {
+
+using std::chrono::milliseconds;
+using workers::RenderedFrame;
+
+/// True where only living workers are left: at most one that draws and one spare.
+bool noneLeftBehind() {
+    return eventually([] {
+        const std::vector<int> children = childrenOf(::getpid());
+        for (const int child : children) {
+            if (stateOf(child) == "Z") return false;
+        }
+        return children.size() <= 2;
+    });
+}
+
+void expectSamePicture(const std::optional<RenderedFrame>& before,
+                       const std::optional<RenderedFrame>& after) {
+    ASSERT_TRUE(before && after);
+    EXPECT_EQ(after->picture->size, before->picture->size);
+    EXPECT_EQ(after->picture->rgba8, before->picture->rgba8);
+}
+
+/// Waits for the picture that a later worker drew for the same request.
+std::optional<RenderedFrame> redrawn(const Service& service, const RenderedFrame& before) {
+    return service.events->waitForFrame(before.view, [&](const RenderedFrame& frame) {
+        return frame.generation > before.generation && frame.tag == before.tag;
+    });
+}
+
+class SignalToAnIdleWorker : public testing::TestWithParam<int> {};
+
+TEST_P(SignalToAnIdleWorker, IsOnlyAPause) {
+    const Service service = startService();
+    ASSERT_TRUE(service.service);
+    const auto volume = service.draw(service.request(1, 11, "volume"));
+    const auto mesh = service.draw(service.request(2, 22, "mesh"));
+    ASSERT_TRUE(volume && mesh);
+    EXPECT_NE(volume->picture->rgba8, mesh->picture->rgba8);
+
+    ASSERT_EQ(::kill(service.pid(), GetParam()), 0);
+    EXPECT_TRUE(service.events->waitForRecovering(1));
+    EXPECT_TRUE(service.events->waitForRecovering(2));
+    expectSamePicture(volume, redrawn(service, *volume));
+    expectSamePicture(mesh, redrawn(service, *mesh));
+    const workers::RenderStatus status = service.service->status();
+    EXPECT_EQ(status.losses, 1U);
+    EXPECT_EQ(status.generation, 2U);
+    EXPECT_FALSE(status.lastLoss.empty());
+    EXPECT_TRUE(noneLeftBehind());
+}
+
+INSTANTIATE_TEST_SUITE_P(Signals, SignalToAnIdleWorker,
+                         testing::Values(SIGKILL, SIGSEGV, SIGTERM, SIGSTOP),
+                         [](const auto& tested) { return std::string{::sigabbrev_np(tested.param)}; });
+
+class SignalWhileDrawing : public testing::TestWithParam<int> {};
+
+TEST_P(SignalWhileDrawing, DrawsTheRequestInFlightAgain) {
+    workers::RenderSettings settings = quickSettings();
+    settings.frameDeadline = milliseconds{5'000};
+    const Service service = startService(settings);
+    ASSERT_TRUE(service.service);
+    const auto small = service.draw(service.request(1, 11));
+    ASSERT_TRUE(small);
+
+    // Long enough to be hit, short enough to be finished afterwards.
+    workers::RenderRequest large = service.request(2, 22);
+    large.size = {1024, 1024};
+    large.scene.layers[0].stepWorld = 2e-3;
+    const auto before = service.draw(large);
+    ASSERT_TRUE(before);
+    large.tag = 23;
+    large.scene.camera.eye.x += 1e-9;  // Not the same scene, so that it is drawn again.
+    service.service->submit(large);
+    ASSERT_TRUE(eventually([&] { return stateOf(service.pid()) == "R"; }));
+    ASSERT_EQ(::kill(service.pid(), GetParam()), 0);
+
+    EXPECT_TRUE(service.events->waitForRecovering(2));
+    const auto after = service.events->waitForTag(2, 23);
+    ASSERT_TRUE(after);
+    EXPECT_EQ(after->picture->rgba8, before->picture->rgba8);
+    expectSamePicture(small, redrawn(service, *small));
+    EXPECT_TRUE(noneLeftBehind());
+}
+
+INSTANTIATE_TEST_SUITE_P(Signals, SignalWhileDrawing, testing::Values(SIGKILL, SIGSTOP),
+                         [](const auto& tested) { return std::string{::sigabbrev_np(tested.param)}; });
+
+TEST(Recovery, AFrameThatMissesItsDeadlineTwiceFailsAndTheOthersGoOn) {
+    workers::RenderSettings settings = quickSettings();
+    settings.frameDeadline = milliseconds{1'500};
+    const Service service = startService(settings);
+    ASSERT_TRUE(service.service);
+    const auto innocent = service.draw(service.request(1, 11, "mesh"));
+    ASSERT_TRUE(innocent);
+
+    service.service->submit(service.endlessRequest(2, 22));
+    const auto failure = service.events->waitForFailure(2, 22);
+    ASSERT_TRUE(failure);
+    EXPECT_EQ(failure->code, ErrorCode::kDeviceLost);
+    EXPECT_NE(failure->message.find("1500 ms"), std::string::npos) << failure->message;
+    EXPECT_TRUE(service.events->waitForRecovering(2, 2));
+    EXPECT_EQ(service.service->status().losses, 2U);
+    expectSamePicture(innocent, redrawn(service, *innocent));
+
+    // Its mailbox is free again, and no third worker was lost.
+    const auto modest = service.draw(service.request(2, 23, "mesh"));
+    ASSERT_TRUE(modest);
+    EXPECT_EQ(modest->picture->rgba8, innocent->picture->rgba8);
+    EXPECT_EQ(service.service->status().losses, 2U);
+    EXPECT_TRUE(noneLeftBehind());
+}
+
+TEST(Recovery, DeathOfTheSpareIsNoticedAndDisturbsNobody) {
+    const Service service = startService();
+    ASSERT_TRUE(service.service);
+    const auto before = service.draw(service.request(1, 11));
+    const int spare = service.sparePid();
+    ASSERT_GT(spare, 0);
+    for (const int signal : {SIGKILL, SIGSTOP}) {
+        const int now = service.sparePid();
+        ASSERT_GT(now, 0);
+        ASSERT_EQ(::kill(now, signal), 0);
+        ASSERT_TRUE(eventually([&] { return stateOf(now).empty(); })) << signal;
+        const int next = service.sparePid();
+        EXPECT_GT(next, 0);
+        EXPECT_NE(next, now);
+    }
+    EXPECT_EQ(service.service->status().generation, 1U);
+    const auto after = service.draw(service.request(1, 12));
+    expectSamePicture(before, after);
+    EXPECT_TRUE(noneLeftBehind());
+}
+
+TEST(Recovery, DeathOfBothAtOnceIsALongerPause) {
+    const Service service = startService();
+    ASSERT_TRUE(service.service);
+    const auto before = service.draw(service.request(1, 11, "mesh"));
+    ASSERT_TRUE(before);
+    const int spare = service.sparePid();
+    ASSERT_GT(spare, 0);
+    ASSERT_EQ(::kill(spare, SIGKILL), 0);
+    ASSERT_EQ(::kill(service.pid(), SIGKILL), 0);
+    EXPECT_TRUE(service.events->waitForRecovering(1));
+    const auto after = redrawn(service, *before);
+    expectSamePicture(before, after);
+    EXPECT_TRUE(noneLeftBehind());
+}
+
+TEST(Recovery, ManyLossesInARowLeakNothing) {
+    const Service service = startService();
+    ASSERT_TRUE(service.service);
+    auto frame = service.draw(service.request(1, 11));
+    ASSERT_TRUE(frame);
+    const auto countDescriptors = [] {
+        std::size_t count = 0;
+        for (const auto& entry : std::filesystem::directory_iterator{"/proc/self/fd"}) {
+            count += entry.path().empty() ? 0 : 1;
+        }
+        return count;
+    };
+    ASSERT_GT(service.sparePid(), 0);
+    const std::size_t descriptors = countDescriptors();
+    for (int i = 0; i < 5; ++i) {
+        ASSERT_GT(service.sparePid(), 0);
+        ASSERT_EQ(::kill(service.pid(), SIGKILL), 0);
+        const auto next = redrawn(service, *frame);
+        expectSamePicture(frame, next);
+        frame = next;
+    }
+    ASSERT_GT(service.sparePid(), 0);
+    EXPECT_TRUE(eventually([&] { return countDescriptors() <= descriptors; }));
+    EXPECT_TRUE(noneLeftBehind());
+}
+
+TEST(Recovery, DatasetsThatCameAndWentAreReplayedAsTheyAreNow) {
+    const Service service = startService();
+    ASSERT_TRUE(service.service);
+    ASSERT_TRUE(service.draw(service.request(1, 1, "mesh")));
+    service.service->removeDataset("mesh");
+    for (std::uint64_t tag = 10; tag < 12; ++tag) {
+        service.service->submit(service.request(2, tag, "mesh"));
+        const auto failure = service.events->waitForFailure(2, tag);
+        ASSERT_TRUE(failure);
+        EXPECT_EQ(failure->code, ErrorCode::kNotFound);
+        EXPECT_EQ(failure->field, "layers[0].dataset");
+        ASSERT_TRUE(service.draw(service.request(3, tag, "volume")));
+        ASSERT_EQ(::kill(service.pid(), SIGKILL), 0);
+        ASSERT_TRUE(service.events->waitForRecovering(3, tag - 9));
+    }
+}
+
+TEST(Recovery, AllProcessesGoWithTheService) {
+    {
+        const Service service = startService();
+        ASSERT_TRUE(service.service);
+        ASSERT_GT(service.sparePid(), 0);
+        EXPECT_EQ(childrenOf(::getpid()).size(), 2U);
+    }
+    EXPECT_TRUE(childrenOf(::getpid()).empty());
+}
+
+}  // namespace
+}  // namespace volcast::test

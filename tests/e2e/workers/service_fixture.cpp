@@ -1,0 +1,253 @@
+#include "tests/e2e/workers/service_fixture.h"
+
+#include <algorithm>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <thread>
+#include <unistd.h>
+
+#include "renderer/data/mesh_builder.h"
+#include "renderer/data/packed_dataset.h"
+#include "renderer/data/volume_builder.h"
+#include "renderer/scene/default_scene.h"
+
+namespace volcast::test {
+
+namespace fs = std::filesystem;
+using workers::RenderedFrame;
+
+template <class Predicate>
+bool Events::waitUntil(Predicate predicate) {
+    std::unique_lock lock{mutex_};
+    return changed_.wait_for(lock, kPatience, predicate);
+}
+
+workers::RenderEvents Events::callbacks() {
+    return {.rendered =
+                [this](RenderedFrame frame) {
+                    const std::scoped_lock lock{mutex_};
+                    frames_.push_back(std::move(frame));
+                    changed_.notify_all();
+                },
+            .failed =
+                [this](std::uint64_t view, std::uint64_t tag, Error error) {
+                    const std::scoped_lock lock{mutex_};
+                    failures_.push_back({.view = view, .tag = tag, .error = std::move(error)});
+                    changed_.notify_all();
+                },
+            .recovering =
+                [this](const std::vector<std::uint64_t>& views) {
+                    const std::scoped_lock lock{mutex_};
+                    recovering_.insert(recovering_.end(), views.begin(), views.end());
+                    changed_.notify_all();
+                }};
+}
+
+std::optional<RenderedFrame> Events::waitForFrame(
+    std::uint64_t view, const std::function<bool(const RenderedFrame&)>& accept) {
+    std::optional<RenderedFrame> found;
+    waitUntil([&] {
+        for (const RenderedFrame& frame : frames_) {
+            if (frame.view == view && accept(frame)) found = frame;
+        }
+        return found.has_value();
+    });
+    return found;
+}
+
+std::optional<RenderedFrame> Events::waitForTag(std::uint64_t view, std::uint64_t tag) {
+    std::optional<RenderedFrame> found;
+    waitUntil([&] {
+        for (const RenderedFrame& frame : frames_) {
+            if (frame.view == view && frame.tag == tag) found = frame;
+        }
+        for (const Failure& failure : failures_) {
+            if (failure.view != view || failure.tag != tag) continue;
+            ADD_FAILURE() << failure.error.message;
+            return true;
+        }
+        return found.has_value();
+    });
+    return found;
+}
+
+std::optional<Error> Events::waitForFailure(std::uint64_t view, std::uint64_t tag) {
+    std::optional<Error> found;
+    waitUntil([&] {
+        for (const Failure& failure : failures_) {
+            if (failure.view == view && failure.tag == tag) found = failure.error;
+        }
+        return found.has_value();
+    });
+    return found;
+}
+
+bool Events::waitForRecovering(std::uint64_t view, std::size_t times) {
+    return waitUntil([&] {
+        return static_cast<std::size_t>(std::count(recovering_.begin(), recovering_.end(), view)) >=
+               times;
+    });
+}
+
+std::size_t Events::framesOf(std::uint64_t view) const {
+    const std::scoped_lock lock{mutex_};
+    return static_cast<std::size_t>(
+        std::count_if(frames_.begin(), frames_.end(),
+                      [view](const RenderedFrame& frame) { return frame.view == view; }));
+}
+
+std::vector<std::uint64_t> Events::viewsInOrder() const {
+    const std::scoped_lock lock{mutex_};
+    std::vector<std::uint64_t> views;
+    for (const RenderedFrame& frame : frames_) views.push_back(frame.view);
+    return views;
+}
+
+bool eventually(const std::function<bool()>& predicate) {
+    const auto until = std::chrono::steady_clock::now() + kPatience;
+    while (!predicate()) {
+        if (std::chrono::steady_clock::now() > until) return false;
+        std::this_thread::sleep_for(std::chrono::milliseconds{2});
+    }
+    return true;
+}
+
+namespace {
+
+/// State and parent from /proc/PID/stat; the name between them may hold anything.
+struct Stat {
+    std::string state;
+    int parent = 0;
+};
+
+std::optional<Stat> statOf(const fs::path& folder) {
+    std::ifstream file{folder / "stat"};
+    std::string text;
+    if (!std::getline(file, text)) return std::nullopt;
+    const std::size_t end = text.rfind(')');
+    if (end == std::string::npos || end + 4 > text.size()) return std::nullopt;
+    return Stat{.state = text.substr(end + 2, 1), .parent = std::stoi(text.substr(end + 4))};
+}
+
+}  // namespace
+
+std::vector<int> childrenOf(int pid) {
+    std::vector<int> children;
+    for (const fs::directory_entry& entry : fs::directory_iterator{"/proc"}) {
+        const std::string name = entry.path().filename();
+        if (name.find_first_not_of("0123456789") != std::string::npos) continue;
+        const auto stat = statOf(entry.path());
+        if (stat && stat->parent == pid) children.push_back(std::stoi(name));
+    }
+    return children;
+}
+
+std::string stateOf(int pid) {
+    const auto stat = statOf(fs::path{"/proc"} / std::to_string(pid));
+    return stat ? stat->state : std::string{};
+}
+
+data::Dataset blockVolume(int side) {
+    std::vector<float> values;
+    for (int z = 0; z < side; ++z) {
+        for (int y = 0; y < side; ++y) {
+            for (int x = 0; x < side; ++x) {
+                values.push_back(static_cast<float>(x + 2 * y + 3 * z) /
+                                 static_cast<float>(6 * side));
+            }
+        }
+    }
+    data::VolumeInput input;
+    input.size = glm::ivec3(side);
+    input.spacing = glm::dvec3(1.0 / (side - 1));
+    input.channels.push_back({.name = "ramp", .unit = {}, .voxels = {}});
+    std::vector<std::byte>& bytes = input.channels.back().voxels;
+    bytes.resize(values.size() * sizeof(float));
+    std::memcpy(bytes.data(), values.data(), bytes.size());
+    return data::buildVolume(std::move(input)).value();
+}
+
+data::Dataset blockMesh() {
+    // A cube of five tetrahedra with a linear field.
+    data::MeshInput input;
+    input.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0},
+                    {0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {1, 1, 1}};
+    input.cells = {{0, 1, 2, 4}, {3, 2, 1, 7}, {5, 4, 7, 1}, {6, 7, 4, 2}, {1, 2, 4, 7}};
+    data::FieldInput field{.name = "height",
+                           .unit = {},
+                           .association = data::Association::kVertex,
+                           .steps = {{}},
+                           .times = {}};
+    for (const glm::dvec3& point : input.points) field.steps[0].push_back(point.z + 0.5 * point.x);
+    input.fields.push_back(std::move(field));
+    return data::buildMesh(std::move(input)).value();
+}
+
+scene::Scene Service::scene(const std::string& dataset, scene::RayModel model) const {
+    const data::DatasetSummary& summary = dataset == "mesh" ? mesh : volume;
+    scene::Scene scene = scene::defaultScene(dataset, summary);
+    scene.layers = {
+        scene::defaultLayer(dataset, summary, dataset == "mesh" ? "height" : "ramp", model)};
+    return scene;
+}
+
+workers::RenderRequest Service::request(std::uint64_t view, std::uint64_t tag,
+                                        const std::string& dataset) const {
+    workers::RenderRequest request;
+    request.view = view;
+    request.tag = tag;
+    request.scene = scene(dataset, scene::RayModel::kVolume);
+    request.size = {96, 64};
+    return request;
+}
+
+workers::RenderRequest Service::endlessRequest(std::uint64_t view, std::uint64_t tag) const {
+    workers::RenderRequest request = this->request(view, tag);
+    request.scene.layers[0].stepWorld = 1e-4;
+    request.size = {4096, 4096};
+    // Nothing is opaque, so that no ray ends early.
+    for (data::ControlPoint& point : request.scene.layers[0].map.points) point.extinction = 1e-3F;
+    return request;
+}
+
+std::optional<RenderedFrame> Service::draw(const workers::RenderRequest& request) const {
+    service->submit(request);
+    return events->waitForTag(request.view, request.tag);
+}
+
+int Service::sparePid() const {
+    if (!eventually([&] { return service->status().spareReady; })) return 0;
+    for (const int child : childrenOf(::getpid())) {
+        if (child != pid() && stateOf(child) != "Z") return child;
+    }
+    return 0;
+}
+
+workers::RenderSettings quickSettings() {
+    workers::RenderSettings settings;
+    settings.frameDeadline = std::chrono::milliseconds{20'000};
+    settings.startDeadline = std::chrono::milliseconds{60'000};
+    settings.heartbeatInterval = std::chrono::milliseconds{100};
+    settings.heartbeatDeadline = std::chrono::milliseconds{1'500};
+    return settings;
+}
+
+Service startService(const workers::RenderSettings& settings) {
+    Service started;
+    const data::Dataset volume = blockVolume(24);
+    const data::Dataset mesh = blockMesh();
+    started.volume = data::summarize(volume);
+    started.mesh = data::summarize(mesh);
+    auto service = workers::RenderService::create(settings, started.events->callbacks());
+    if (!service) {
+        ADD_FAILURE() << service.error().message;
+        return started;
+    }
+    started.service = *std::move(service);
+    started.service->addDataset("volume", data::pack(volume).value());
+    started.service->addDataset("mesh", data::pack(mesh).value());
+    return started;
+}
+
+}  // namespace volcast::test
