@@ -5,6 +5,7 @@
 layout(location = 0) out int face;
 
 void main() {
+    if (gl_HelperInvocation) return;
     Entry entry = repairedEntry(gl_PrimitiveID, sightThrough(pictureFrom(gl_FragCoord.xy)));
     if (entry.face < 0) discard;
     face = entry.face;

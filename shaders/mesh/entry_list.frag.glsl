@@ -1,15 +1,12 @@
 // All faces where each pixel's line enters a mesh, as linked lists in no order. Nodes that do not
 // fit are counted all the same, so that the caller sees how many there are.
 #include "lib/layer.glsl"
+#include "mesh/counts.glsl"
 #include "mesh/entry.glsl"
 
 layout(binding = kHeadImage, r32i) uniform iimage2D heads;
 layout(std430, binding = kNodeStorage) writeonly buffer Nodes {
     ivec4 nodes[];  // face, bits of its depth, next node or -1
-};
-layout(std430, binding = kCountStorage) buffer Counts {
-    uint nodeCount;
-    uint unfinishedCount;
 };
 
 void main() {

@@ -1,12 +1,8 @@
 // Rays too long for one draw: counted, and on request put aside to go on in the next draw. llvmpipe
 // ends all loops of an invocation after 65,535 iterations, without a word.
 // Constants: kResumes, kCounts.
+#include "mesh/counts.glsl"
 #include "mesh/entry_queue.glsl"
-
-layout(std430, binding = kCountStorage) buffer Counts {
-    uint nodeCount;
-    uint unfinishedCount;
-};
 
 const int kNotStarted = 0;
 const int kPaused = 1;

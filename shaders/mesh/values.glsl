@@ -31,13 +31,7 @@ CellValues valuesIn(Walk walk, Corner q) {
                       pick(stored, ranks.w));
 }
 
-// The value on a face; `known` where the face is seen edge-on and has no weights. Between the
-// corners' values also after rounding, so that a constant field stays constant.
+// The value on a face; `known` where the face is seen edge-on and has no weights.
 float valueOn(vec3 values, vec3 weights, float known) {
-    if (kValuesAt == kValuesAtCells) return values.x;
-    float sum = weights.x + weights.y + weights.z;
-    float mean = dot(weights, values) / sum;
-    float low = min(values.x, min(values.y, values.z));
-    float high = max(values.x, max(values.y, values.z));
-    return sum > 0.0 ? clamp(mean, low, high) : known;
+    return kValuesAt == kValuesAtCells ? values.x : meanOf(values, weights, known);
 }

@@ -30,14 +30,14 @@ struct Span {
     float worldPerDepth;
 };
 
-int at(ivec4 list, int rank) {
+int pickId(ivec4 list, int rank) {
     ivec2 pair = rank < 2 ? list.xy : list.zw;
     return (rank & 1) == 0 ? pair.x : pair.y;
 }
 
 // Replaces the vertex of the entry face that does not belong to the exit face, and moves on.
 // Returns the values at both ends of the line in the cell that was left.
-vec2 cross(inout Walk walk, Sight sight) {
+vec2 crossCell(inout Walk walk, Sight sight) {
     Corner q = cornerOf(walk.apex, sight);
     ivec4 neighbours = texelFetch(cellRecords, 2 * walk.cell);
     ivec4 apexes = texelFetch(cellRecords, 2 * walk.cell + 1);
@@ -50,7 +50,9 @@ vec2 cross(inout Walk walk, Sight sight) {
     bool dropsB = !dropsA && !dropsC;
 
     CellValues values = valuesIn(walk, q);
-    float before = valueOn(values.front, walk.weights, walk.value);
+    float before = kValuesAt == kValuesAtVertices
+                       ? walk.value
+                       : valueOn(values.front, walk.weights, walk.value);
 
     walk.weights = max(vec3(dropsA ? walk.weights.x : dropsB ? areas.z : -areas.y,
                             dropsB ? walk.weights.y : dropsC ? areas.x : -areas.z,
@@ -68,8 +70,8 @@ vec2 cross(inout Walk walk, Sight sight) {
     vec3 depths = vec3(walk.a.depth, walk.b.depth, walk.c.depth);
     // A face seen edge-on has no depth of its own; depth never goes back.
     walk.depth = sum > 0.0 ? max(walk.depth, dot(walk.weights, depths) / sum) : walk.depth;
-    walk.cell = at(neighbours, rank);
-    walk.apex = at(apexes, rank);
+    walk.cell = pickId(neighbours, rank);
+    walk.apex = pickId(apexes, rank);
     return vec2(before, walk.value);
 }
 
@@ -104,7 +106,7 @@ bool crossCells(inout Walk walk, inout RayState state, inout int steps, Sight si
     while (walk.cell >= 0 && !ended && steps > 0) {
         --steps;
         float front = walk.depth;
-        vec2 values = cross(walk, sight);
+        vec2 values = crossCell(walk, sight);
         ended = gather(state, values, front, walk.depth, span);
     }
     return ended;

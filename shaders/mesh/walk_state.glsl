@@ -10,9 +10,24 @@ struct Walk {
     float value;   // of the field there, as the cell before saw it
 };
 
+// The mean of three values by areas that are not negative, between the values also after rounding,
+// so that a constant field stays constant; `known` where the areas are all 0.
+float meanOf(vec3 values, vec3 weights, float known) {
+    float sum = weights.x + weights.y + weights.z;
+    float mean = dot(weights, values) / sum;
+    float low = min(values.x, min(values.y, values.z));
+    float high = max(values.x, max(values.y, values.z));
+    return sum > 0.0 ? clamp(mean, low, high) : known;
+}
+
+Walk walkOn(int cell, int apex, Corner a, Corner b, Corner c, vec3 areas) {
+    vec3 weights = max(areas, 0.0);
+    return Walk(cell, apex, a, b, c, weights, depthOn(a, b, c, weights),
+                meanOf(vec3(a.value, b.value, c.value), weights, a.value));
+}
+
 Walk walkFrom(Entry entry) {
-    return Walk(entry.cell, entry.apex, entry.a, entry.b, entry.c, max(entry.weights, 0.0),
-                depthOn(entry.a, entry.b, entry.c, entry.weights), 0.0);
+    return walkOn(entry.cell, entry.apex, entry.a, entry.b, entry.c, entry.weights);
 }
 
 Walk outside() {
@@ -29,7 +44,7 @@ void tryFace(inout Walk best, inout float bestFit, Corner a, Corner b, Corner c,
     float fit = holds ? 3.0e38 : min(weights.x, min(weights.y, weights.z));
     if (fit <= bestFit) return;
     bestFit = fit;
-    best = Walk(meshView.start.x, apex, a, b, c, max(weights, 0.0), depthOn(a, b, c, weights), 0.0);
+    best = walkOn(meshView.start.x, apex, a, b, c, weights);
 }
 
 // In the cell that the eye is in, on the face behind the eye; outside where it is in none.

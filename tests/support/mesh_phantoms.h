@@ -16,7 +16,7 @@
 #include "renderer/data/mesh_builder.h"
 
 /// Tetrahedral meshes whose shape and fields are known in closed form.
-namespace volcast::test {
+namespace volcast::support {
 
 using PointFunction = std::function<double(const glm::dvec3&)>;
 
@@ -162,4 +162,4 @@ inline std::function<glm::dvec3(const glm::dvec3&)> jitter(const glm::ivec3& cub
     };
 }
 
-}  // namespace volcast::test
+}  // namespace volcast::support

@@ -14,9 +14,9 @@
 namespace volcast::data {
 namespace {
 
-using test::addField;
-using test::LatticeDesc;
-using test::latticeMesh;
+using support::addField;
+using support::LatticeDesc;
+using support::latticeMesh;
 
 MeshInput singleTet() {
     return {.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
@@ -139,7 +139,7 @@ TEST(MeshBuilder, LatticeHasExactVolumeBoundaryAndConvexity) {
 }
 
 TEST(MeshBuilder, CellsHaveTheFormTheMeshPromises) {
-    const Mesh mesh = built(test::shuffled(latticeMesh({.cubes = {3, 3, 3}}), 7));
+    const Mesh mesh = built(support::shuffled(latticeMesh({.cubes = {3, 3, 3}}), 7));
     for (const glm::ivec4& c : mesh.cells) {
         EXPECT_LT(c.x, c.y);
         EXPECT_LT(c.y, std::min(c.z, c.w));
@@ -157,7 +157,7 @@ TEST(MeshBuilder, ResultDoesNotDependOnTheOrderOfTheInput) {
     addField(input, "p0", Association::kCell, f);
     addField(input, "d1", Association::kCellVertex, f);
     const Mesh a = built(input);
-    const Mesh b = built(test::shuffled(input, 3));
+    const Mesh b = built(support::shuffled(input, 3));
     EXPECT_TRUE(std::equal(a.vertices.begin(), a.vertices.end(), b.vertices.begin()));
     EXPECT_TRUE(std::equal(a.cells.begin(), a.cells.end(), b.cells.begin(), b.cells.end()));
     EXPECT_TRUE(std::equal(a.neighbours.begin(), a.neighbours.end(), b.neighbours.begin()));
@@ -176,7 +176,7 @@ TEST(MeshBuilder, FieldValuesFollowTheirItems) {
     addField(input, "p1", Association::kVertex, f);
     addField(input, "p0", Association::kCell, f);
     addField(input, "d1", Association::kCellVertex, f);
-    const Mesh mesh = built(test::shuffled(input, 11));
+    const Mesh mesh = built(support::shuffled(input, 11));
     for (std::size_t t = 0; t < mesh.cells.size(); ++t) {
         double mean = 0.0;
         for (int i = 0; i < 4; ++i) {

@@ -17,11 +17,11 @@ namespace {
 
 Mesh someMesh() {
     MeshInput input =
-        test::latticeMesh({.cubes = {3, 2, 2}, .low = {1e6, 0, 0}, .high = {1e6 + 3, 2, 2}});
+        support::latticeMesh({.cubes = {3, 2, 2}, .low = {1e6, 0, 0}, .high = {1e6 + 3, 2, 2}});
     const auto f = [](const glm::dvec3& p) { return p.x - 1e6 + p.y * p.z; };
-    test::addField(input, "p1", Association::kVertex, f);
-    test::addField(input, "p0", Association::kCell, f);
-    test::addField(input, "d1", Association::kCellVertex, f);
+    support::addField(input, "p1", Association::kVertex, f);
+    support::addField(input, "p0", Association::kCell, f);
+    support::addField(input, "d1", Association::kCellVertex, f);
     input.fields[1].steps.push_back(input.fields[1].steps[0]);
     input.fields[1].unit = "\xC2\xB5m";
     return buildMesh(input).value();

@@ -1,0 +1,39 @@
+#include <epoxy/gl.h>
+
+#include "renderer/mesh/mesh_buffers.h"
+#include "renderer/mesh/shared.h"
+#include "renderer/mesh/walk.h"
+
+namespace volcast::mesh {
+
+Result<void> drawSurface(const DrawInputs& inputs) {
+    const MeshBuffers& mesh = MeshBuffers::of(*inputs.meshGpu);
+    const bool coloured = inputs.layer->coloured && inputs.field != nullptr;
+    std::vector<shading::Constant> constants{{"kColoured", coloured},
+                                             {"kHeadlight", inputs.layer->headlight},
+                                             {"kValuesAt", valuesAt(inputs.association)}};
+    if (coloured) {
+        constants.insert(constants.end(), inputs.constants.begin(), inputs.constants.end());
+    }
+    const auto program = inputs.programs->ray(
+        {.evaluator = coloured ? "mesh/surface_coloured.glsl" : "mesh/surface_plain.glsl",
+         .classify = coloured ? "classify/transfer_function.glsl" : "",
+         .segment = "",
+         .model = "",
+         .constants = std::move(constants)},
+        "mesh/surface.vert.glsl");
+    if (!program) return program.error();
+    // From outside, the nearest boundary faces the eye; within the mesh it faces away.
+    inputs.target->begin({.depth = gpu::DepthTest::kNearest,
+                          .cull = inputs.planeDepth > 0.0 ? gpu::Cull::kBack : gpu::Cull::kNone});
+    (*program)->use();
+    mesh.positions.bindTexels(shared::kPositionUnit);
+    mesh.boundary.bindTexels(shared::kBoundaryUnit);
+    if (coloured) FieldBuffer::of(*inputs.field).values.bindTexels(shared::kFieldUnit);
+    glEnable(GL_DEPTH_CLAMP);  // Nothing in front of the eye is cut away.
+    inputs.device->draw(gpu::Primitive::kTriangles, 3 * mesh.boundaryCount);
+    glDisable(GL_DEPTH_CLAMP);
+    return {};
+}
+
+}  // namespace volcast::mesh

@@ -1,0 +1,237 @@
+#include "renderer/mesh/walk_cache.h"
+
+#include <array>
+#include <string>
+
+#include <epoxy/gl.h>
+
+#include "renderer/mesh/view_block.h"
+#include "renderer/shading/shared.h"
+
+namespace volcast::mesh {
+
+namespace {
+
+constexpr std::size_t kNodeBytes = sizeof(glm::ivec4);
+constexpr std::size_t kFirstNodes = std::size_t{1} << 16;
+constexpr const char* kBoundaryVertex = "mesh/boundary.vert.glsl";
+
+bool holds(const data::Box& box, const glm::dvec3& point) {
+    return glm::all(glm::lessThanEqual(box.min, point)) &&
+           glm::all(glm::lessThanEqual(point, box.max));
+}
+
+}  // namespace
+
+Result<void> WalkCache::prepare(const DrawInputs& inputs) {
+    const MeshBuffers& mesh = MeshBuffers::of(*inputs.meshGpu);
+    const int place = valuesAt(inputs.association);
+    // Only values at vertices travel with the vertices.
+    const bool carried = place == shared::kValuesAtVertices && inputs.field != nullptr;
+    const Key key{.mesh = mesh.serial,
+                  .field = carried ? FieldBuffer::of(*inputs.field).serial : 0,
+                  .camera = inputs.cameraVersion,
+                  .valuesAt = carried ? place : shared::kValuesAtCells};
+    if (key == key_ && heads_.size() == inputs.size) return {};
+    const bool sameView =
+        key.mesh == key_.mesh && key.camera == key_.camera && heads_.size() == inputs.size;
+    if (auto done = allocate(inputs); !done) return done;
+    if (!sameView) {
+        if (auto done = lookFrom(inputs); !done) return done;
+    }
+    if (auto done = transformVertices(inputs); !done) return done;
+    if (!sameView) {
+        if (auto done = findEntries(inputs); !done) return done;
+    }
+    key_ = key;
+    return {};
+}
+
+Result<void> WalkCache::allocate(const DrawInputs& inputs) {
+    gpu::Device& device = *inputs.device;
+    const MeshBuffers& mesh = MeshBuffers::of(*inputs.meshGpu);
+    const auto make = [&device](gpu::Buffer& buffer, const gpu::BufferDesc& desc) -> Result<void> {
+        if (buffer.valid() && buffer.bytes() == desc.bytes) return {};
+        auto made = gpu::Buffer::create(device, desc);
+        if (!made) return made.error();
+        buffer = std::move(*made);
+        return {};
+    };
+    key_ = {};  // Until all of it is made, nothing of it counts.
+    if (auto done = make(
+            block_, {.bytes = sizeof(shared::MeshBlock), .updatable = true, .label = "mesh block"});
+        !done) {
+        return done;
+    }
+    if (auto done = make(vertices_, {.bytes = mesh.vertexCount * sizeof(glm::vec4),
+                                     .texels = gpu::TexelFormat::kRgba32F,
+                                     .label = "camera space vertices"});
+        !done) {
+        return done;
+    }
+    if (auto done =
+            make(counts_,
+                 {.bytes = 2 * sizeof(std::uint32_t), .updatable = true, .label = "walk counts"});
+        !done) {
+        return done;
+    }
+    if (heads_.size() == inputs.size) return {};
+    auto heads = gpu::Texture2D::create(
+        device, {.size = inputs.size, .format = gpu::PixelFormat::kR32I, .label = "mesh entries"});
+    if (!heads) return heads.error();
+    const std::array colours{&*heads};
+    auto target = gpu::Target::create(device, "mesh entries", colours);
+    if (!target) return target.error();
+    headTarget_ = std::move(*target);
+    heads_ = std::move(*heads);
+    paused_ = {};  // Of another size.
+    return {};
+}
+
+Result<void> WalkCache::lookFrom(const DrawInputs& inputs) {
+    const MeshBuffers& mesh = MeshBuffers::of(*inputs.meshGpu);
+    const glm::dvec3 eye = inputs.camera->eye - inputs.mesh->origin;
+    std::optional<Place> start;
+    if (inputs.camera->projection == scene::Projection::kPerspective && inputs.planeDepth <= 0.0 &&
+        holds(mesh.bounds, eye)) {
+        start = locate(*inputs.mesh, eye, startCell_ < mesh.cellCount ? startCell_ : -1);
+    }
+    startCell_ = start ? start->cell : -1;
+    const glm::ivec4 startVertices =
+        start ? inputs.mesh->cells[static_cast<std::size_t>(start->cell)] : glm::ivec4{0};
+    const shared::MeshBlock block = viewBlock(mesh, inputs.mesh->origin, *inputs.camera,
+                                              inputs.planeDepth, inputs.size, start, startVertices);
+    block_.update(0, std::as_bytes(std::span{&block, 1}));
+    return {};
+}
+
+Result<void> WalkCache::transformVertices(const DrawInputs& inputs) {
+    const MeshBuffers& mesh = MeshBuffers::of(*inputs.meshGpu);
+    const bool carried =
+        inputs.field != nullptr && inputs.association == data::Association::kVertex;
+    const auto program = inputs.programs->compute(
+        "mesh/transform.comp.glsl",
+        {{"kValuesAt", carried ? shared::kValuesAtVertices : shared::kValuesAtCells}});
+    if (!program) return program.error();
+    (*program)->use();
+    block_.bindUniform(shading::shared::kMeshBinding);
+    mesh.positions.bindTexels(shared::kPositionUnit);
+    if (carried) FieldBuffer::of(*inputs.field).values.bindTexels(shared::kFieldUnit);
+    vertices_.bindStorage(shared::kVertexStorage);
+    constexpr unsigned kGroupSize = 128;  // As in the shader.
+    constexpr unsigned kGroupsAcross = 16384;
+    const unsigned groups = (static_cast<unsigned>(mesh.vertexCount) + kGroupSize - 1) / kGroupSize;
+    inputs.device->dispatch(std::min(groups, kGroupsAcross),
+                            (groups + kGroupsAcross - 1) / kGroupsAcross, 1);
+    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
+    return inputs.device->check("camera space vertices");
+}
+
+Result<void> WalkCache::findEntries(const DrawInputs& inputs) {
+    if (inputs.mesh->convex) return drawEntries(inputs);
+    if (!nodes_.valid()) {
+        if (auto done = growNodes(*inputs.device, kFirstNodes); !done) return done;
+    }
+    // The second round has room for what the first one counted.
+    for (int round = 0; round < 2; ++round) {
+        clearCounts();
+        if (auto done = drawEntries(inputs); !done) return done;
+        const std::size_t counted = readCount(0);
+        if (auto done = inputs.device->check("entry lists"); !done) return done;
+        if (counted <= nodes_.bytes() / kNodeBytes) return {};
+        if (auto done = growNodes(*inputs.device, counted + counted / 4); !done) return done;
+    }
+    return fail(ErrorCode::kLimitExceeded, "mesh: the entries of a picture changed while drawn");
+}
+
+Result<void> WalkCache::drawEntries(const DrawInputs& inputs) {
+    const MeshBuffers& mesh = MeshBuffers::of(*inputs.meshGpu);
+    const bool convex = inputs.mesh->convex;
+    const auto program = inputs.programs->pass(
+        kBoundaryVertex, convex ? "mesh/entry_face.frag.glsl" : "mesh/entry_list.frag.glsl",
+        {{"kEndsAtSurfaces", false}});  // Entries are found whatever lies before them.
+    if (!program) return program.error();
+    headTarget_.begin({.cull = gpu::Cull::kBack});
+    headTarget_.clearInteger(0, -1);
+    (*program)->use();
+    block_.bindUniform(shading::shared::kMeshBinding);
+    vertices_.bindTexels(shared::kVertexUnit);
+    mesh.boundary.bindTexels(shared::kBoundaryUnit);
+    if (!convex) {
+        heads_.bindImage(shared::kHeadImage);
+        nodes_.bindStorage(shared::kNodeStorage);
+        counts_.bindStorage(shared::kCountStorage);
+        glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);  // The shader writes the image.
+    }
+    inputs.device->draw(gpu::Primitive::kTriangles, 3 * mesh.boundaryCount);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    if (!convex) glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
+    return inputs.device->check("mesh entries");
+}
+
+Result<void> WalkCache::growNodes(gpu::Device& device, std::size_t nodes) {
+    nodes_ = {};  // Both at once might not fit.
+    auto made = gpu::Buffer::create(device, {.bytes = nodes * kNodeBytes,
+                                             .texels = gpu::TexelFormat::kRgba32I,
+                                             .label = "entry lists"});
+    if (!made) return made.error();
+    nodes_ = std::move(*made);
+    return {};
+}
+
+void WalkCache::bind(const DrawInputs& inputs) const {
+    const MeshBuffers& mesh = MeshBuffers::of(*inputs.meshGpu);
+    block_.bindUniform(shading::shared::kMeshBinding);
+    vertices_.bindTexels(shared::kVertexUnit);
+    mesh.cells.bindTexels(shared::kCellUnit);
+    mesh.boundary.bindTexels(shared::kBoundaryUnit);
+    if (inputs.field != nullptr) {
+        FieldBuffer::of(*inputs.field).values.bindTexels(shared::kFieldUnit);
+    }
+    heads_.bind(shared::kEntryUnit);
+    if (nodes_.valid()) nodes_.bindTexels(shared::kEntryNodeUnit);
+    counts_.bindStorage(shared::kCountStorage);
+}
+
+void WalkCache::clearCounts() const {
+    const std::uint32_t zero = 0;
+    glClearNamedBufferData(counts_.name(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &zero);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+}
+
+std::uint32_t WalkCache::readCount(std::size_t index) const {
+    std::uint32_t count = 0;
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+    glGetNamedBufferSubData(counts_.name(), static_cast<GLintptr>(index * sizeof(count)),
+                            sizeof(count), &count);
+    return count;
+}
+
+std::uint32_t WalkCache::unfinishedRays() const {
+    return readCount(1);
+}
+
+Result<void> WalkCache::bindPausedRays(gpu::Device& device, std::size_t bytesARay) {
+    const std::size_t bytes =
+        static_cast<std::size_t>(heads_.size().x) * heads_.size().y * bytesARay;
+    if (bytes > static_cast<std::size_t>(device.limits().storageBlockBytes)) {
+        return fail(ErrorCode::kLimitExceeded,
+                    "mesh: rays through so many cells need " + std::to_string(bytes) +
+                        " bytes, this GPU has blocks of " +
+                        std::to_string(device.limits().storageBlockBytes) +
+                        " at most; draw a smaller picture");
+    }
+    if (!paused_.valid() || paused_.bytes() != bytes) {
+        paused_ = {};
+        auto made = gpu::Buffer::create(device, {.bytes = bytes, .label = "paused rays"});
+        if (!made) return made.error();
+        paused_ = std::move(*made);
+    }
+    const std::uint32_t zero = 0;
+    glClearNamedBufferData(paused_.name(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &zero);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    paused_.bindStorage(shared::kPausedStorage);
+    return {};
+}
+
+}  // namespace volcast::mesh

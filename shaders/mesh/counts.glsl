@@ -1,0 +1,7 @@
+// What passes report to the CPU; zero to begin with.
+#include "shared/mesh_bindings.glsl"
+
+layout(std430, binding = kCountStorage) buffer Counts {
+    uint nodeCount;        // entries of all pixels, also those that found no room
+    uint unfinishedCount;  // rays that need another draw
+};
