@@ -1,14 +1,16 @@
 // The `volcast` program: picks the command.
 #include <CLI/CLI.hpp>
 
+#include "server/commands/import_command.h"
 #include "server/commands/serve_command.h"
 
 int main(int argc, char** argv) {
     CLI::App app{"Volcast: remote volume rendering with stated accuracy", "volcast"};
-    app.set_version_flag("--version", VOLCAST_VERSION);
+    app.set_version_flag("--version", "volcast " VOLCAST_VERSION);
     app.require_subcommand(1);
     int exitCode = 0;
     volcast::commands::addServeCommand(app, exitCode);
+    volcast::commands::addImportCommand(app, exitCode);
     CLI11_PARSE(app, argc, argv);
     return exitCode;
 }

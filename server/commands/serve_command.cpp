@@ -113,7 +113,7 @@ void addServeCommand(CLI::App& app, int& exitCode) {
     settings->listen.threads = std::clamp(cores, 1U, 4U);
     settings->encodeThreads = std::clamp(cores, 1U, 8U);
     settings->importsAtOnce = cores > 4 ? 2 : 1;
-    settings->serverName = "volcast " + app.version();
+    settings->serverName = app.version();
     CLI::App& command =
         *app.add_subcommand("serve", "Serve a folder of data, or the built-in demo, to browsers");
     command.add_option("DATA_DIR", settings->dataFolder,
