@@ -5,16 +5,17 @@ const installed = (name: string) => fileURLToPath(new URL(`node_modules/${name}`
 
 /** The tests in ../tests/browser: a real server and a real Chromium, one test after the other. */
 export default defineConfig({
-  root: fileURLToPath(new URL("../tests/browser", import.meta.url)),
+  root: fileURLToPath(new URL("..", import.meta.url)),
+  cacheDir: installed(".vite-browser"),
+  server: { fs: { strict: false } }, // The tests lie outside this folder.
   resolve: {
     alias: {
       "playwright-core": installed("playwright-core"),
       "axe-core": installed("axe-core"),
-      vitest: installed("vitest"),
     },
   },
   test: {
-    include: ["*.test.ts"],
+    include: ["tests/browser/*.test.ts"],
     environment: "node",
     fileParallelism: false,
     testTimeout: 120_000,

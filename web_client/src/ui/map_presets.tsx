@@ -66,7 +66,7 @@ export function DensitySlider({ state }: Props) {
   return (
     <label class="density">
       <span>
-        Density <output>× {formatNumber(density, 3)}</output>
+        Density <span class="density-factor">× {formatNumber(density, 3)}</span>
       </span>
       <input
         type="range"

@@ -7,21 +7,30 @@ export function limited(width: number, height: number, maxSide: number): Viewpor
   return { width: within(width), height: within(height) };
 }
 
+/**
+ * The number of device pixels along a side. `exact` comes from the browser's layout and is right
+ * at fractional scales; where a device is only emulated it belongs to the real screen instead,
+ * which shows in its distance from `css * scale`.
+ */
+export function devicePixels(css: number, scale: number, exact: number | undefined): number {
+  const expected = css * scale;
+  if (exact !== undefined && Math.abs(exact - expected) <= 1.5) return exact;
+  return Math.round(expected);
+}
+
 /** Follows an element's size in device pixels, exact at fractional scales too; returns its end. */
 export function followSize(
   element: HTMLElement,
   changed: (width: number, height: number) => void,
 ): () => void {
   const observer = new ResizeObserver((entries) => {
-    const entry = entries[entries.length - 1];
-    const exact = entry?.devicePixelContentBoxSize?.[0];
-    if (exact) {
-      changed(exact.inlineSize, exact.blockSize);
-    } else {
-      const box = element.getBoundingClientRect();
-      const scale = window.devicePixelRatio;
-      changed(Math.round(box.width * scale), Math.round(box.height * scale));
-    }
+    const exact = entries[entries.length - 1]?.devicePixelContentBoxSize?.[0];
+    const box = element.getBoundingClientRect();
+    const scale = window.devicePixelRatio;
+    changed(
+      devicePixels(box.width, scale, exact?.inlineSize),
+      devicePixels(box.height, scale, exact?.blockSize),
+    );
   });
   try {
     observer.observe(element, { box: "device-pixel-content-box" });

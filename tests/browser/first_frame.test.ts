@@ -1,0 +1,62 @@
+import type { Browser } from "playwright-core";
+import { afterAll, beforeAll, describe, expect, it } from "vitest";
+import { Client, launch } from "./support/client";
+import { countColours, decodePng, difference, hashOf } from "./support/pixels";
+import { Server } from "./support/server";
+
+let server: Server;
+let browser: Browser;
+let client: Client;
+
+beforeAll(async () => {
+  server = await Server.start();
+  browser = await launch();
+  client = await Client.open(browser, server.url);
+});
+
+afterAll(async () => {
+  await browser?.close();
+  await server?.stop();
+});
+
+describe("first frame", () => {
+  it("is a picture of something, final and exact", async () => {
+    expect(await client.fact("lossless")).toBe("true");
+    expect(countColours(await client.pixels(), 64)).toBe(64);
+    expect(client.complaints).toEqual([]);
+  });
+
+  it("has the size of its place in device pixels", async () => {
+    const box = await client.page.locator(".picture canvas").boundingBox();
+    expect(await client.fact("size")).toBe(`${box?.width}x${box?.height}`);
+  });
+
+  it("shows the server's lossless pixels and nothing else", async () => {
+    const sent = client.lossless;
+    if (!sent) throw new Error("no lossless frame came over the wire");
+    expect(String(sent.header.inputSeq)).toBe(await client.fact("inputSeq"));
+    expect(difference(await client.pixels(), decodePng(sent.payload))).toEqual({
+      largest: 0,
+      pixels: 0,
+    });
+  });
+
+  it("can be saved, byte by byte as the server made it", async () => {
+    const download = client.page.waitForEvent("download");
+    await client.page.getByRole("button", { name: "Save the picture" }).click();
+    const stream = await (await download).createReadStream();
+    const parts: Buffer[] = [];
+    for await (const part of stream) parts.push(part as Buffer);
+    const saved = Buffer.concat(parts);
+    expect(saved.equals(Buffer.from(client.lossless?.payload ?? []))).toBe(true);
+  });
+
+  it("comes back after a reload with the camera where it was", async () => {
+    await client.after(() => client.drag(120, 40));
+    const before = hashOf(await client.pixels());
+    await client.page.waitForTimeout(400); // The view is kept a moment after the last change.
+    await client.page.reload();
+    await client.settled();
+    expect(hashOf(await client.pixels())).toBe(before);
+  });
+});

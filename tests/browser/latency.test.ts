@@ -1,0 +1,55 @@
+import type { Browser } from "playwright-core";
+import { afterAll, beforeAll, describe, expect, it } from "vitest";
+import { percentile } from "../../web_client/src/state/latencies";
+import { Client, launch } from "./support/client";
+import { Server } from "./support/server";
+
+let server: Server;
+let browser: Browser;
+
+const kPanel = 336;
+const kMoves = 120;
+
+beforeAll(async () => {
+  server = await Server.start(
+    process.env.VOLCAST_LATENCY_DATA ? { data: process.env.VOLCAST_LATENCY_DATA } : {},
+  );
+  browser = await launch();
+});
+
+afterAll(async () => {
+  await browser?.close();
+  await server?.stop();
+});
+
+interface Diagnostics {
+  volcast: { latencies(): readonly number[]; clearLatencies(): void };
+}
+
+/** Printed for the reader, not judged: a busy machine is no bug. */
+describe("latency", () => {
+  it.each([512, 1024])("input to drawn at %s squared is measured", async (side) => {
+    const client = await Client.open(browser, server.url, {
+      viewport: { width: side + kPanel, height: side },
+    });
+    expect(await client.fact("size")).toBe(`${side}x${side}`);
+    const { page } = client;
+    await page.evaluate(() => (window as unknown as Diagnostics).volcast.clearLatencies());
+    await client.after(async () => {
+      const { x, y } = await client.middle();
+      await page.mouse.move(x, y);
+      await page.mouse.down();
+      for (let i = 1; i <= kMoves; i += 1) {
+        await page.mouse.move(x + 100 * Math.sin(i / 20), y + 60 * Math.sin(i / 13));
+      }
+      await page.mouse.up();
+    });
+    const ms = await page.evaluate(() => (window as unknown as Diagnostics).volcast.latencies());
+    expect(ms.length).toBeGreaterThan(5);
+    const show = (p: number): string => (percentile(ms, p) ?? Number.NaN).toFixed(1);
+    console.info(
+      `input to drawn at ${side}x${side}: p50 ${show(0.5)} ms, p95 ${show(0.95)} ms, ${ms.length} inputs`,
+    );
+    await client.close();
+  });
+});

@@ -1,0 +1,139 @@
+import { mkdirSync, readFileSync } from "node:fs";
+import { createRequire } from "node:module";
+import { join } from "node:path";
+import type { Browser, BrowserContextOptions } from "playwright-core";
+import { afterAll, beforeAll, describe, expect, it } from "vitest";
+import { Client, launch } from "./support/client";
+import { decodePng, difference } from "./support/pixels";
+import { Server, screenshotFolder } from "./support/server";
+
+let server: Server;
+let browser: Browser;
+
+const require = createRequire(new URL("../../web_client/package.json", import.meta.url));
+const kAxe = readFileSync(require.resolve("axe-core"), "utf8");
+
+beforeAll(async () => {
+  server = await Server.start();
+  browser = await launch();
+  mkdirSync(screenshotFolder(), { recursive: true });
+});
+
+afterAll(async () => {
+  await browser?.close();
+  await server?.stop();
+});
+
+const kWide = { viewport: { width: 1280, height: 800 } };
+const kNarrow = { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true };
+
+/** Rules that axe finds broken, with the first element of each. */
+async function violations(client: Client): Promise<string[]> {
+  await client.page.evaluate(kAxe);
+  return client.page.evaluate(async () => {
+    interface Axe {
+      run(): Promise<{ violations: { id: string; nodes: { html: string }[] }[] }>;
+    }
+    const { axe } = window as unknown as { axe: Axe };
+    const result = await axe.run();
+    return result.violations.map((v) => `${v.id}: ${v.nodes[0]?.html}`);
+  });
+}
+
+interface Look {
+  readonly name: string;
+  readonly options: BrowserContextOptions;
+}
+
+const kLooks: Look[] = [
+  { name: "1280-light", options: { ...kWide, colorScheme: "light" } },
+  { name: "1280-dark", options: { ...kWide, colorScheme: "dark" } },
+  { name: "390-light", options: { ...kNarrow, colorScheme: "light", deviceScaleFactor: 2 } },
+  { name: "390-dark", options: { ...kNarrow, colorScheme: "dark", deviceScaleFactor: 2 } },
+];
+
+describe("layout", () => {
+  it.each(kLooks)("$name fits, is accessible and is photographed", async ({ name, options }) => {
+    const client = await Client.open(browser, server.url, options);
+    const shot = (what: string): Promise<Buffer> =>
+      client.page.screenshot({ path: join(screenshotFolder(), `${what}.png`) });
+    expect(await violations(client)).toEqual([]);
+    await shot(name);
+    const toggle = client.page.locator(".sheet-toggle");
+    if (await toggle.isVisible()) {
+      await client.after(() => toggle.click());
+      await client.page.locator(".map-plot").scrollIntoViewIfNeeded();
+      expect(await violations(client)).toEqual([]);
+      await shot(`${name}-open`);
+    }
+    const overflow = await client.page.evaluate(
+      () => document.documentElement.scrollWidth - document.documentElement.clientWidth,
+    );
+    expect(overflow).toBe(0);
+    await client.close();
+  });
+
+  it("has an accessible help and readout", async () => {
+    const client = await Client.open(browser, server.url, kWide);
+    await client.page.locator(".readout summary").click();
+    await client.page.keyboard.press("Shift+Slash");
+    await client.page.waitForSelector("dialog[open]");
+    expect(await violations(client)).toEqual([]);
+    await client.close();
+  });
+
+  it.each([1.5, 2])("draws device pixels at a scale of %s", async (deviceScaleFactor) => {
+    const viewport = { width: 801, height: 500 };
+    const client = await Client.open(browser, server.url, { viewport, deviceScaleFactor });
+    const box = await client.page.locator(".picture canvas").boundingBox();
+    const [width = 0, height = 0] = (await client.fact("size")).split("x").map(Number);
+    expect(Math.abs(width - (box?.width ?? 0) * deviceScaleFactor)).toBeLessThan(1);
+    expect(Math.abs(height - (box?.height ?? 0) * deviceScaleFactor)).toBeLessThan(1);
+    if (deviceScaleFactor === 2 && client.lossless) {
+      const sent = decodePng(client.lossless.payload);
+      expect(difference(await client.pixels(), sent).largest).toBe(0);
+    }
+    await client.close();
+  });
+
+  it("draws device pixels on a screen that really has 1.5 of them a CSS pixel", async () => {
+    const scaled = await launch(["--force-device-scale-factor=1.5", "--window-size=901,600"]);
+    try {
+      const client = await Client.open(scaled, server.url, { viewport: null });
+      const exact = await client.page.evaluate(
+        () =>
+          new Promise<string>((resolve) => {
+            const canvas = document.querySelector(".picture canvas");
+            const look = new ResizeObserver(([entry]) => {
+              const box = entry?.devicePixelContentBoxSize?.[0];
+              resolve(`${box?.inlineSize}x${box?.blockSize}`);
+            });
+            if (canvas) look.observe(canvas, { box: "device-pixel-content-box" });
+          }),
+      );
+      expect(await client.page.evaluate(() => window.devicePixelRatio)).toBe(1.5);
+      expect(await client.fact("size")).toBe(exact);
+    } finally {
+      await scaled.close();
+    }
+  });
+
+  it("follows the window's size", async () => {
+    const client = await Client.open(browser, server.url, kWide);
+    await client.after(() => client.page.setViewportSize({ width: 1000, height: 640 }));
+    const box = await client.page.locator(".picture canvas").boundingBox();
+    expect(await client.fact("size")).toBe(`${box?.width}x${box?.height}`);
+    await client.close();
+  });
+
+  it("keeps the sheet on top of nothing that it hides", async () => {
+    const client = await Client.open(browser, server.url, kNarrow);
+    const closed = await client.page.locator(".picture").boundingBox();
+    await client.after(() => client.page.locator(".sheet-toggle").click());
+    const open = await client.page.locator(".picture").boundingBox();
+    const panel = await client.page.locator(".panel").boundingBox();
+    expect(open?.height).toBeLessThan(closed?.height ?? 0);
+    expect((open?.y ?? 0) + (open?.height ?? 0)).toBeLessThanOrEqual((panel?.y ?? 0) + 0.5);
+    await client.close();
+  });
+});

@@ -1,0 +1,120 @@
+import { type Browser, type BrowserContextOptions, chromium, type Page } from "playwright-core";
+import { decodeFrame, type Frame, isFrame } from "../../../web_client/src/net/framing";
+import { decodePng, type Pixels } from "./pixels";
+
+const kChromium = process.env.CHROMIUM_BIN ?? "/usr/bin/chromium";
+const kPatienceMs = 60_000;
+
+/** Colours as they are in the picture: no colour profile between page and screenshot. */
+export function launch(more: readonly string[] = []): Promise<Browser> {
+  const sandbox = process.getuid?.() === 0 ? ["--no-sandbox"] : [];
+  const args = [...sandbox, "--force-color-profile=srgb", ...more];
+  return chromium.launch({ executablePath: kChromium, headless: true, args });
+}
+
+/** The client in a page of its own, and all that the server sent to it. */
+export class Client {
+  readonly page: Page;
+  readonly complaints: string[] = [];
+  /** The newest lossless frame that came over the wire. */
+  lossless: Frame | undefined;
+
+  private constructor(page: Page) {
+    this.page = page;
+    page.on("pageerror", (error) => this.complaints.push(error.message));
+    page.on("websocket", (socket) => {
+      socket.on("framereceived", ({ payload }) => {
+        if (typeof payload === "string") return;
+        const bytes = Uint8Array.from(payload);
+        if (!isFrame(bytes)) return;
+        const frame = decodeFrame(bytes);
+        if (frame.header.lossless) this.lossless = frame;
+      });
+    });
+  }
+
+  /** Opens the page and waits for its first exact picture. */
+  static async open(
+    browser: Browser,
+    url: string,
+    options: BrowserContextOptions = {},
+  ): Promise<Client> {
+    const context = await browser.newContext({
+      viewport: { width: 1280, height: 800 },
+      ...options,
+    });
+    const client = new Client(await context.newPage());
+    await client.page.goto(url);
+    await client.settled();
+    return client;
+  }
+
+  async close(): Promise<void> {
+    await this.page.context().close();
+  }
+
+  badge(): Promise<string> {
+    return this.page.evaluate(
+      () => document.querySelector<HTMLElement>(".badge")?.dataset.state ?? "",
+    );
+  }
+
+  async waitForBadge(state: string): Promise<void> {
+    await this.page.waitForSelector(`.badge[data-state="${state}"]`, {
+      state: "attached",
+      timeout: kPatienceMs,
+    });
+  }
+
+  /** A fact about the picture on the screen, from the element that holds it. */
+  async fact(name: "inputSeq" | "lossless" | "view" | "size" | "workerGeneration") {
+    return this.page.evaluate(
+      (key) => document.querySelector<HTMLElement>(".picture")?.dataset[key] ?? "",
+      name,
+    );
+  }
+
+  /** Waits for the exact picture of an input after `after`. */
+  async settled(after = 0): Promise<void> {
+    await this.page.waitForFunction(
+      (seq) => {
+        const picture = document.querySelector<HTMLElement>(".picture")?.dataset;
+        const badge = document.querySelector<HTMLElement>(".badge")?.dataset;
+        return Number(picture?.inputSeq ?? 0) > seq && badge?.state === "final";
+      },
+      after,
+      { timeout: kPatienceMs },
+    );
+  }
+
+  /** Does something to the view and waits for the exact picture of it. */
+  async after(act: () => Promise<void>): Promise<void> {
+    const before = Number(await this.fact("inputSeq"));
+    await act();
+    await this.settled(before);
+  }
+
+  /** What is on the screen where the picture is: composited, in device pixels. */
+  async pixels(): Promise<Pixels> {
+    const png = await this.page.locator(".picture").screenshot({
+      style:
+        ".tools, .readout, .notices { visibility: hidden !important } .picture { outline: none !important }",
+    });
+    return decodePng(png);
+  }
+
+  /** The middle of the picture in CSS pixels. */
+  async middle(): Promise<{ x: number; y: number }> {
+    const box = await this.page.locator(".picture").boundingBox();
+    if (!box) throw new Error("the picture has no box");
+    return { x: box.x + box.width / 2, y: box.y + box.height / 2 };
+  }
+
+  async drag(dx: number, dy: number, steps = 8): Promise<void> {
+    const { x, y } = await this.middle();
+    await this.page.mouse.move(x, y);
+    await this.page.mouse.down();
+    await this.page.mouse.move(x + dx, y + dy, { steps });
+    await this.page.mouse.up();
+  }
+}
