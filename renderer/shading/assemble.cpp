@@ -32,21 +32,22 @@ std::string at(const LineOrigin& origin) {
     return origin.file + ":" + std::to_string(origin.line);
 }
 
+std::string floatText(float value) {
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "%.9g", value);
+    const std::string digits{text.data()};
+    return digits.find_first_of(".e") == std::string::npos ? digits + ".0" : digits;
+}
+
 std::string declaration(const Constant& constant) {
-    std::string type = "bool", value;
+    const std::string left = " " + constant.name + " = ";
     if (const bool* flag = std::get_if<bool>(&constant.value)) {
-        value = *flag ? "true" : "false";
-    } else if (const int* integer = std::get_if<int>(&constant.value)) {
-        type = "int";
-        value = std::to_string(*integer);
-    } else {
-        std::array<char, 32> text{};
-        std::snprintf(text.data(), text.size(), "%.9g", std::get<float>(constant.value));
-        type = "float";
-        value = text.data();
-        if (value.find_first_of(".e") == std::string::npos) value += ".0";
+        return "const bool" + left + (*flag ? "true;" : "false;");
     }
-    return "const " + type + " " + constant.name + " = " + value + ";";
+    if (const int* integer = std::get_if<int>(&constant.value)) {
+        return "const int" + left + std::to_string(*integer) + ";";
+    }
+    return "const float" + left + floatText(std::get<float>(constant.value)) + ";";
 }
 
 /// Joins lines and remembers where each came from.

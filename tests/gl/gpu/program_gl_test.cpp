@@ -73,6 +73,7 @@ TEST_F(ProgramTest, ClipSpaceUpIsRowZero) {
     }
 }
 
+// A volume program whose model is broken in line 4.
 TEST_F(ProgramTest, ABrokenChunkIsReportedWithItsFileAndLine) {
     shading::ProgramCache programs{
         device(), withChunk("model/mip.glsl",
@@ -83,9 +84,49 @@ TEST_F(ProgramTest, ABrokenChunkIsReportedWithItsFileAndLine) {
                             "}\n"
                             "bool skipsBetween(RayState s, float lo, float hi) { return false; }\n"
                             "vec4 endRay(RayState s) { return vec4(0.0); }\n")};
-    const auto source = withChunk("x", "");
     const Result<const gpu::Program*> program =
-        programs.pass(shading::kFullScreenVertex, "model/mip.glsl");
+        programs.ray({.evaluator = "volume/march.glsl",
+                      .classify = "classify/transfer_function.glsl",
+                      .segment = "",
+                      .model = "model/mip.glsl",
+                      .constants = {{"kMapSearch", 0},
+                                    {"kEndsAtSurfaces", false},
+                                    {"kTrilinear", true},
+                                    {"kFilterInHardware", true},
+                                    {"kSkipBricks", true},
+                                    {"kEarlyStop", true},
+                                    {"kBrickSize", 16},
+                                    {"kMaxRaySamples", 100}}});
+    ASSERT_TRUE(program.has_error());
+    EXPECT_EQ(program.error().code, ErrorCode::kShaderBuild);
+    EXPECT_THAT(program.error().message, ::testing::HasSubstr("model/mip.glsl:4:"));
+    EXPECT_THAT(program.error().message, ::testing::HasSubstr("undeclaredThing"));
+}
+
+// A slot that is left out although the model calls it is found when the program is compiled.
+TEST_F(ProgramTest, ASlotThatIsCalledButEmptyDoesNotBuild) {
+    shading::ProgramCache programs{device(),
+                                   withChunk("lib/evaluator.glsl",
+                                             "out vec4 colour;\nvoid main() {\n"
+                                             "    colour = integrateSegment(Segment(0, 0, 0, 0));\n"
+                                             "}\n")};
+    shading::Recipe recipe{.evaluator = "lib/evaluator.glsl",
+                           .classify = "",
+                           .segment = "",
+                           .model = "",
+                           .constants = {}};
+    const Result<const gpu::Program*> program = programs.ray(recipe);
+    ASSERT_TRUE(program.has_error());
+    EXPECT_THAT(program.error().message, ::testing::HasSubstr("lib/evaluator.glsl:3:"));
+}
+
+TEST_F(ProgramTest, StagesThatDoNotFitDoNotLink) {
+    shading::ProgramCache programs{device(),
+                                   withChunk("lib/in.glsl",
+                                             "in vec3 notWritten;\nout vec4 colour;\n"
+                                             "void main() { colour = vec4(notWritten, 1.0); }\n")};
+    const Result<const gpu::Program*> program =
+        programs.pass(shading::kFullScreenVertex, "lib/in.glsl");
     ASSERT_TRUE(program.has_error());
     EXPECT_EQ(program.error().code, ErrorCode::kShaderBuild);
 }
