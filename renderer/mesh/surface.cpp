@@ -9,12 +9,10 @@ namespace volcast::mesh {
 Result<void> drawSurface(const DrawInputs& inputs) {
     const MeshBuffers& mesh = MeshBuffers::of(*inputs.meshGpu);
     const bool coloured = inputs.layer->coloured && inputs.field != nullptr;
-    std::vector<shading::Constant> constants{{"kColoured", coloured},
-                                             {"kHeadlight", inputs.layer->headlight},
-                                             {"kValuesAt", valuesAt(inputs.association)}};
-    if (coloured) {
-        constants.insert(constants.end(), inputs.constants.begin(), inputs.constants.end());
-    }
+    std::vector<shading::Constant> constants = inputs.constants;
+    constants.insert(constants.end(), {{"kColoured", coloured},
+                                       {"kHeadlight", inputs.layer->headlight},
+                                       {"kValuesAt", valuesAt(inputs.association)}});
     const auto program = inputs.programs->ray(
         {.evaluator = coloured ? "mesh/surface_coloured.glsl" : "mesh/surface_plain.glsl",
          .classify = coloured ? "classify/transfer_function.glsl" : "",

@@ -151,7 +151,7 @@ Result<void> WalkCache::drawEntries(const DrawInputs& inputs) {
         kBoundaryVertex, convex ? "mesh/entry_face.frag.glsl" : "mesh/entry_list.frag.glsl",
         {{"kEndsAtSurfaces", false}});  // Entries are found whatever lies before them.
     if (!program) return program.error();
-    headTarget_.begin({.cull = gpu::Cull::kBack});
+    headTarget_.begin({});
     headTarget_.clearInteger(0, -1);
     (*program)->use();
     block_.bindUniform(shading::shared::kMeshBinding);

@@ -19,8 +19,8 @@ Entry entryAt(int face, Sight sight) {
                  vec3(areaOf(b, c), areaOf(c, a), areaOf(a, b)));
 }
 
-// The rasteriser snaps vertices to a grid, so the face it reports may be next to the one that the
-// line meets: cross edges that the line is outside of, at most 6 times.
+// The face that was rasterised is drawn a little too large and may be next to the one that the line
+// meets: cross edges that the line is outside of, at most 6 times.
 Entry repairedEntry(int face, Sight sight) {
     Entry entry = entryAt(face, sight);
     for (int hop = 0; hop < 6; ++hop) {

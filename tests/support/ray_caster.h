@@ -208,8 +208,8 @@ inline std::optional<CastHit> castSurface(const data::Mesh& mesh, const CastRay&
         const glm::dvec3 from = ray.origin - at(ids.x);
         const double distance = -glm::dot(normal, from) / slant;
         const glm::dvec3 across = glm::cross(ray.direction, from);
-        const double second = -glm::dot(v, across) / slant;
-        const double third = glm::dot(u, across) / slant;
+        const double second = glm::dot(v, across) / slant;
+        const double third = -glm::dot(u, across) / slant;
         if (distance < 0.0 || second < 0.0 || third < 0.0 || second + third > 1.0) continue;
         if (nearest && nearest->distance <= distance) continue;
         nearest = CastHit{.distance = distance,

@@ -40,8 +40,8 @@ protected:
     }
     double worstInBox(const scene::Camera& camera, glm::ivec2 size, const glm::dvec3& low,
                       const glm::dvec3& high) {
-        // Within a hair of a silhouette, a pixel may see the box or miss it.
-        const double hair = 1e-3 * glm::length(high - low);
+        // On a silhouette to within rounding, a pixel may see the box or miss it.
+        const double hair = 1e-6 * glm::length(high - low);
         return worstError(
             camera, size,
             [&](const auto& ray) { return lengthInBox(ray.origin, ray.direction, low, high); },
