@@ -138,6 +138,7 @@ Result<Summaries> DeviceRenderer::validated(const Scene& scene, PictureSize size
 Result<FrameInfo> DeviceRenderer::render(std::uint64_t view, const Scene& scene, PictureSize size,
                                          const FrameTarget& target) {
     if (!device_.alive()) return fail(ErrorCode::kDeviceLost, "the device was given up");
+    countWork();  // The device may have worked for others since the last call.
     const Counters before = counters_;
     const Result<Summaries> summaries = validated(scene, size, target);
     if (!summaries) return summaries.error();
