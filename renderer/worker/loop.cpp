@@ -11,6 +11,7 @@
 #include "renderer/scene/validate.h"
 #include "renderer/worker/frame_message.h"
 #include "renderer/worker/scene_message.h"
+#include "renderer/worker/warm_up.h"
 
 namespace volcast::worker {
 
@@ -92,6 +93,7 @@ Result<void> Loop::handle(const wire::ToWorker& message, Descriptors descriptors
             answer.mutable_pong()->set_token(message.ping().token());
             return reply(answer);
         }
+        case wire::ToWorker::kWarmUp: return warmUp(message.warm_up().step());
         case wire::ToWorker::BODY_NOT_SET: break;
     }
     return fail(ErrorCode::kInvalidArgument, "the server sent a message of an unknown kind");
@@ -109,6 +111,22 @@ Result<void> Loop::addDataset(const std::string& id, const Descriptors& descript
         *answer.mutable_failed() = toMessage(dataset.error());
         answer.mutable_failed()->set_dataset(id);
     }
+    return reply(answer);
+}
+
+Result<void> Loop::warmUp(std::uint32_t step) {
+    // What fails here fails again, and is told, when a scene needs it.
+    if (auto done = worker::warmUp(renderer_, step); !done) {
+        if (done.error().code == ErrorCode::kDeviceLost) {
+            deviceLost_ = true;
+            device_.abandon();
+            return done;
+        }
+        spdlog::warn("{}", done.error().message);
+    }
+    wire::FromWorker answer;
+    answer.mutable_warmed_up()->set_step(step);
+    answer.mutable_warmed_up()->set_more(step + 1 < kWarmUpSteps);
     return reply(answer);
 }
 

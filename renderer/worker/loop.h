@@ -28,6 +28,7 @@ private:
     /// Errors: kDeviceLost (server or device gone), kInvalidArgument (unknown message).
     Result<void> handle(const internal::v1::ToWorker& message, Descriptors descriptors);
     Result<void> addDataset(const std::string& id, const Descriptors& descriptors);
+    Result<void> warmUp(std::uint32_t step);
     Result<void> render(const internal::v1::Render& request, const Descriptors& descriptors);
     /// Errors are the request's own, but for kDeviceLost.
     Result<internal::v1::Rendered> draw(const internal::v1::Render& request,

@@ -20,7 +20,6 @@
 #include "renderer/worker/loop.h"
 #include "renderer/worker/options.h"
 #include "renderer/worker/probe.h"
-#include "renderer/worker/warm_up.h"
 
 namespace {
 
@@ -72,9 +71,6 @@ int serve(const worker::Options& options, Clock::time_point start) {
                                             : shading::chunksFrom(options.shaderFolder);
     auto renderer = scene::Renderer::create(**device, chunks);
     if (!renderer) return refuse(channel, renderer.error(), worker::kExitNoDevice);
-    if (Result<void> warm = worker::warmUp(**renderer); !warm) {
-        return refuse(channel, warm.error(), worker::kExitNoDevice);
-    }
     internal::v1::FromWorker ready;
     const gpu::DeviceInfo& info = (*device)->info();
     ready.mutable_ready()->set_gl_renderer(info.glRenderer);

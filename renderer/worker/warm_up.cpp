@@ -1,5 +1,6 @@
 #include "renderer/worker/warm_up.h"
 
+#include <array>
 #include <cstring>
 #include <string>
 #include <utility>
@@ -45,38 +46,36 @@ Result<data::Dataset> tinyVolume() {
     return data::Dataset{*std::move(volume)};
 }
 
-Result<void> drawOnce(scene::Renderer& renderer, Result<data::Dataset> dataset,
-                      const std::vector<scene::RayModel>& models) {
+struct Step {
+    bool mesh;
+    scene::RayModel model;
+};
+
+/// The likeliest first.
+constexpr std::array<Step, kWarmUpSteps> kSteps{{{true, scene::RayModel::kVolume},
+                                                 {false, scene::RayModel::kVolume},
+                                                 {true, scene::RayModel::kSurface},
+                                                 {true, scene::RayModel::kMip},
+                                                 {false, scene::RayModel::kMip}}};
+
+}  // namespace
+
+Result<void> warmUp(scene::Renderer& renderer, std::uint32_t step) {
+    if (step >= kSteps.size()) {
+        return fail(ErrorCode::kInvalidArgument, "no warm-up step " + std::to_string(step));
+    }
+    auto dataset = kSteps[step].mesh ? tinyMesh() : tinyVolume();
     if (!dataset) return std::move(dataset).error();
     const data::DatasetSummary summary = data::summarize(*dataset);
     renderer.addDataset(kDataset, *std::move(dataset));
     scene::Scene scene = scene::defaultScene(kDataset, summary);
+    scene.layers = {scene::defaultLayer(kDataset, summary, "f", kSteps[step].model)};
     std::vector<std::byte> pixels(std::size_t{4} * kSize.x * kSize.y);
-    Result<void> done;
-    for (const scene::RayModel model : models) {
-        scene.layers = {scene::defaultLayer(kDataset, summary, "f", model)};
-        auto drawn = renderer.render(kView, scene, kSize, {.rgba8 = pixels, .rgba32f = {}});
-        // A ray model this build does not have says nothing about the device.
-        if (!drawn && drawn.error().code != ErrorCode::kUnsupported) {
-            done = fail(drawn.error().code, "first picture: " + drawn.error().message);
-            break;
-        }
-    }
+    auto drawn = renderer.render(kView, scene, kSize, {.rgba8 = pixels, .rgba32f = {}});
     renderer.dropView(kView);
     renderer.removeDataset(kDataset);
-    return done;
-}
-
-}  // namespace
-
-Result<void> warmUp(scene::Renderer& renderer) {
-    using scene::RayModel;
-    if (Result<void> done =
-            drawOnce(renderer, tinyMesh(), {RayModel::kSurface, RayModel::kMip, RayModel::kVolume});
-        !done) {
-        return done;
-    }
-    return drawOnce(renderer, tinyVolume(), {RayModel::kMip, RayModel::kVolume});
+    if (!drawn) return fail(drawn.error().code, "warm-up: " + drawn.error().message);
+    return {};
 }
 
 }  // namespace volcast::worker

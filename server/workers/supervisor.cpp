@@ -20,6 +20,7 @@ using Clock = Supervisor::Clock;
 
 /// A spare starts a little later, so as not to take the processor from the first pictures.
 constexpr milliseconds kSpareDelay{300};
+constexpr milliseconds kFirstSpareDelay{1'000};
 /// After so many workers in a row that died before they were ready, requests fail.
 constexpr int kFailuresToGiveUp = 3;
 /// A process whose channel is closed is about to end; it has this long to say how.
@@ -168,16 +169,21 @@ void Supervisor::handle(Worker& worker, const WorkerProcess::Answer& answer) {
     }
     if (answer.has_failed()) return refuse(answer.failed());
     if (answer.has_rendered()) return finish(answer.rendered());
+    // One step at a time, so that a spare that is needed now draws soon.
+    if (answer.has_warmed_up() && answer.warmed_up().more() && &worker == &spare_) {
+        worker->warmUp(answer.warmed_up().step() + 1, settings_.startDeadline);
+    }
 }
 
 void Supervisor::becomeReady(Worker& worker) {
+    spareAllowed_ = Clock::now() + (everReady_ ? kSpareDelay : kFirstSpareDelay);
     everReady_ = true;
     startError_.reset();
     backOff_.succeeded();
-    spareAllowed_ = Clock::now() + kSpareDelay;
     spdlog::info("GL worker {} ready after {:.0f} ms: {} ({})", worker->pid(),
                  worker->about().start_ms(), worker->about().gl_renderer(),
                  &worker == &main_ ? "drawing" : "spare");
+    if (&worker == &spare_) worker->warmUp(0, settings_.startDeadline);
 }
 
 void Supervisor::finish(const internal::v1::Rendered& rendered) {
@@ -343,7 +349,7 @@ RenderStatus Supervisor::status() const {
     status.ready = main_ && main_->ready();
     status.generation = generation_;
     status.losses = losses_;
-    status.spareReady = spare_ && spare_->ready();
+    status.spareReady = spare_ && spare_->ready() && spare_->warm();
     status.workerPid = main_ ? main_->pid() : 0;
     if (status.ready) {
         status.glRenderer = main_->about().gl_renderer();

@@ -85,6 +85,13 @@ void WorkerProcess::ping(milliseconds limit) {
     owe(Owed::kPong, limit);
 }
 
+void WorkerProcess::warmUp(std::uint32_t step, milliseconds limit) {
+    Message message;
+    message.mutable_warm_up()->set_step(step);
+    outbox_.push_back({.message = std::move(message), .descriptor = nullptr});
+    owe(Owed::kWarmUp, limit);
+}
+
 Result<SharedDescriptor> WorkerProcess::prepareSlot(std::size_t bytes) {
     Slot& slot = slots_[slot_];
     const std::size_t now = slot.mapping.bytes.size();
@@ -147,6 +154,7 @@ Result<void> WorkerProcess::settle(const Answer& answer) {
         case Answer::kDatasetAdded: expected = owed == Owed::kDataset; break;
         case Answer::kRendered: expected = owed == Owed::kFrame; break;
         case Answer::kPong: expected = owed == Owed::kPong; break;
+        case Answer::kWarmedUp: expected = owed == Owed::kWarmUp; break;
         case Answer::kFailed: expected = owed && owed != Owed::kPong; break;
         case Answer::BODY_NOT_SET: break;
     }
@@ -154,6 +162,7 @@ Result<void> WorkerProcess::settle(const Answer& answer) {
     owed_.pop_front();
     lastHeard_ = owedSince_ = Clock::now();
     if (answer.has_ready()) ready_ = answer.ready();
+    if (answer.has_warmed_up()) warm_ = !answer.warmed_up().more();
     return {};
 }
 
@@ -205,6 +214,7 @@ std::string WorkerProcess::deadlineMissed() const {
         case Owed::kDataset: return "missed its deadline of " + limit + " for a dataset";
         case Owed::kFrame: return "missed its deadline of " + limit + " for a frame";
         case Owed::kPong: return "gave no sign of life for " + limit;
+        case Owed::kWarmUp: return "missed its deadline of " + limit + " for building shaders";
     }
     return {};
 }

@@ -39,6 +39,8 @@ public:
     void removeDataset(const std::string& id);
     void dropView(std::uint64_t view);
     void ping(std::chrono::milliseconds limit);
+    /// Has the worker build the shaders of one ray model; handle the answer, then ask for `step`+1.
+    void warmUp(std::uint32_t step, std::chrono::milliseconds limit);
     /// Errors: kLimitExceeded (the scene is too large for the channel), kIo (no memory).
     Result<void> render(std::uint64_t number, const RenderRequest& request,
                         std::chrono::milliseconds limit);
@@ -57,6 +59,8 @@ public:
 
     [[nodiscard]] bool ready() const noexcept { return ready_.has_value(); }
     [[nodiscard]] const internal::v1::Ready& about() const { return *ready_; }
+    /// All its shaders are built.
+    [[nodiscard]] bool warm() const noexcept { return warm_; }
     /// True where nothing is owed.
     [[nodiscard]] bool idle() const noexcept { return owed_.empty(); }
     [[nodiscard]] bool wantsToSend() const noexcept { return !outbox_.empty(); }
@@ -74,7 +78,7 @@ public:
     [[nodiscard]] std::optional<ExitStatus> tryReap() noexcept { return child_.tryReap(); }
 
 private:
-    enum class Owed { kReady, kDataset, kFrame, kPong };
+    enum class Owed { kReady, kDataset, kFrame, kPong, kWarmUp };
     struct Debt {
         Owed what;
         std::chrono::milliseconds limit;
@@ -101,6 +105,7 @@ private:
     Clock::time_point owedSince_{};  ///< When the oldest became the oldest.
     Clock::time_point lastHeard_;
     std::optional<internal::v1::Ready> ready_;
+    bool warm_ = false;
     std::array<Slot, worker::kSlots> slots_;
     std::uint32_t slot_ = 0;  ///< Of the last picture asked for.
 };

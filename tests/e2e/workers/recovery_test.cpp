@@ -68,7 +68,7 @@ class SignalWhileDrawing : public testing::TestWithParam<int> {};
 
 TEST_P(SignalWhileDrawing, DrawsTheRequestInFlightAgain) {
     workers::RenderSettings settings = quickSettings();
-    settings.frameDeadline = milliseconds{5'000};
+    settings.frameDeadline = milliseconds{8'000};
     const Service service = startService(settings);
     ASSERT_TRUE(service.service);
     const auto small = service.draw(service.request(1, 11));
@@ -76,18 +76,19 @@ TEST_P(SignalWhileDrawing, DrawsTheRequestInFlightAgain) {
 
     // Long enough to be hit, short enough to be finished afterwards.
     workers::RenderRequest large = service.request(2, 22);
-    large.size = {1024, 1024};
-    large.scene.layers[0].stepWorld = 2e-3;
+    large.size = {512, 512};
+    large.scene.layers[0].stepWorld = 5e-3;
     const auto before = service.draw(large);
     ASSERT_TRUE(before);
-    large.tag = 23;
-    large.scene.camera.eye.x += 1e-9;  // Not the same scene, so that it is drawn again.
+    // Another view of the same scene: the worker has nothing of it and has to draw.
+    large.view = 3;
+    large.tag = 33;
     service.service->submit(large);
     ASSERT_TRUE(eventually([&] { return stateOf(service.pid()) == "R"; }));
     ASSERT_EQ(::kill(service.pid(), GetParam()), 0);
 
-    EXPECT_TRUE(service.events->waitForRecovering(2));
-    const auto after = service.events->waitForTag(2, 23);
+    EXPECT_TRUE(service.events->waitForRecovering(3));
+    const auto after = service.events->waitForTag(3, 33);
     ASSERT_TRUE(after);
     EXPECT_EQ(after->picture->rgba8, before->picture->rgba8);
     expectSamePicture(small, redrawn(service, *small));
