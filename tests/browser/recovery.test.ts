@@ -9,7 +9,7 @@ let browser: Browser;
 let client: Client;
 
 beforeAll(async () => {
-  server = await Server.start();
+  server = await Server.start({ more: ["--frame-deadline-ms", "4000"] });
   browser = await launch();
   client = await Client.open(browser, server.url, { viewport: { width: 900, height: 600 } });
   await client.page.evaluate(() => {

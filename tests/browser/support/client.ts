@@ -96,11 +96,21 @@ export class Client {
 
   /** What is on the screen where the picture is: composited, in device pixels. */
   async pixels(): Promise<Pixels> {
-    const png = await this.page.locator(".picture").screenshot({
-      style:
-        ".tools, .readout, .notices { visibility: hidden !important } .picture { outline: none !important }",
-    });
+    await this.#coverPicture("hidden");
+    const png = await this.page.locator(".picture").screenshot();
+    await this.#coverPicture("");
     return decodePng(png);
+  }
+
+  /** Shows or hides what lies over the picture; the page's policy allows no style of ours. */
+  async #coverPicture(visibility: "hidden" | ""): Promise<void> {
+    await this.page.evaluate((value) => {
+      for (const part of document.querySelectorAll<HTMLElement>(".tools, .readout, .notices")) {
+        part.style.visibility = value;
+      }
+      const picture = document.querySelector<HTMLElement>(".picture");
+      if (picture) picture.style.outline = value ? "none" : "";
+    }, visibility);
   }
 
   /** The middle of the picture in CSS pixels. */

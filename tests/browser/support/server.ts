@@ -49,9 +49,11 @@ export class Server {
   }
 
   /** Serves `data`, or the built-in demo; port 0 lets the system choose. */
-  static async start(options: { data?: string; port?: number } = {}): Promise<Server> {
+  static async start(
+    options: { data?: string; port?: number; more?: readonly string[] } = {},
+  ): Promise<Server> {
     const folder = mkdtempSync(join(tmpdir(), "volcast-browser-"));
-    const args = ["serve", "--port", String(options.port ?? 0)];
+    const args = ["serve", "--port", String(options.port ?? 0), ...(options.more ?? [])];
     if (options.data) args.push(options.data);
     const child = spawn(findProgram(), args, { cwd: folder, stdio: ["ignore", "pipe", "pipe"] });
     let said = "";

@@ -48,10 +48,9 @@ export class InputPacer {
   }
 
   /** A number for a view that is opened with everything: earlier changes are part of it. */
-  takeForOpen(inputAt: number): bigint {
+  takeForOpen(): bigint {
     this.#newest += 1n;
-    this.#inputTimes.clear();
-    this.#inputTimes.set(this.#newest, this.#inputAt ?? inputAt);
+    this.#inputTimes.clear(); // Opening takes as long as an import: no measure of a response.
     this.#clear();
     return this.#newest;
   }

@@ -165,7 +165,7 @@ export class Session {
     this.#state.pendingDataset.value = dataset || undefined;
     const box = dataset === this.#state.dataset.value?.id ? this.#state.bounds.value : undefined;
     const scene = document && sceneMessage(document.scene, document.orbit, box, document.edit);
-    const inputSeq = this.#pacer.takeForOpen(performance.now());
+    const inputSeq = this.#pacer.takeForOpen();
     this.#state.newestInput.value = inputSeq;
     this.#send({ case: "openView", value: { view, dataset, viewport, inputSeq, scene } });
   }

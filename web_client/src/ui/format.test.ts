@@ -1,5 +1,12 @@
 import { describe, expect, it } from "vitest";
-import { formatBytes, formatCount, formatMs, formatNumber, parseNumber } from "./format";
+import {
+  formatBytes,
+  formatCount,
+  formatMs,
+  formatNumber,
+  formatValue,
+  parseNumber,
+} from "./format";
 
 describe("numbers for people", () => {
   it("have four digits and powers of ten where these are shorter", () => {
@@ -9,6 +16,8 @@ describe("numbers for people", () => {
     expect(formatNumber(1234567)).toBe("1.235e6");
     expect(formatNumber(1e-9)).toBe("1e-9");
     expect(formatNumber(Number.NaN)).toBe("NaN");
+    expect(formatValue(6.7e-15, 270)).toBe("0");
+    expect(formatValue(6.7e-15, 1e-14)).toBe("6.7e-15");
   });
 
   it("count and weigh", () => {

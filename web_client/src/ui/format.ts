@@ -10,6 +10,11 @@ export function formatNumber(value: number, digits = 4): string {
   return String(Number(value.toPrecision(digits)));
 }
 
+/** A value within a range of length `span`: what is nothing beside the range is 0. */
+export function formatValue(value: number, span: number, digits = 4): string {
+  return formatNumber(Math.abs(value) < 1e-6 * span ? 0 : value, digits);
+}
+
 /** A count: 1234 is 1,234 and 1234567 is 1.23 M. */
 export function formatCount(count: number): string {
   if (count < 100_000) return count.toLocaleString("en");

@@ -11,7 +11,7 @@ import {
 } from "../state/actions";
 import type { AppState } from "../state/app_state";
 import { withPointAt } from "../transfer/transfer_function";
-import { formatNumber } from "./format";
+import { formatNumber, formatValue } from "./format";
 import { IconButton } from "./icons";
 import { MapInputs } from "./map_inputs";
 import { drawPlot, type PlotBox, rangeOf, valueAt } from "./map_plot";
@@ -113,9 +113,9 @@ function Plot({ state, selected }: Props & { readonly selected: { value: number 
         )}
       </div>
       <div class="map-scale">
-        <span>{formatNumber(box.low)}</span>
+        <span>{formatValue(box.low, box.high - box.low)}</span>
         <span>{field?.unit ?? ""}</span>
-        <span>{formatNumber(box.high)}</span>
+        <span>{formatValue(box.high, box.high - box.low)}</span>
       </div>
     </div>
   );

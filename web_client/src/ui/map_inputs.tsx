@@ -4,7 +4,7 @@ import type { AppState } from "../state/app_state";
 import { opacityFromExtinction } from "../transfer/opacity";
 import { fromHex, toHex } from "../transfer/srgb";
 import { isEnd, withColour, withMovedPoint } from "../transfer/transfer_function";
-import { formatNumber, parseNumber } from "./format";
+import { formatNumber, formatValue, parseNumber } from "./format";
 import { IconButton } from "./icons";
 import { deletePoint, extinctionFor } from "./map_points";
 
@@ -50,6 +50,7 @@ export function MapInputs({ state, selected, showsOpacity }: Props) {
   if (!point) return null;
   const drawn = point.extinction * density;
   const opacity = opacityFromExtinction(drawn, state.referenceLength.value);
+  const span = (map[map.length - 1]?.value ?? 0) - (map[0]?.value ?? 0);
   const move = (value: number, extinction: number): void =>
     changeMap(state, withMovedPoint(map, index, value, extinction));
   return (
@@ -71,7 +72,7 @@ export function MapInputs({ state, selected, showsOpacity }: Props) {
       </label>
       <NumberField
         label="Value"
-        text={formatNumber(point.value, 6)}
+        text={formatValue(point.value, span, 6)}
         disabled={isEnd(map, index)}
         take={(value) => move(value, point.extinction)}
       />

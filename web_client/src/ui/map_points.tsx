@@ -9,7 +9,7 @@ import {
 } from "../transfer/opacity";
 import { toHex } from "../transfer/srgb";
 import { isEnd, type Point, withMovedPoint, withoutPoint } from "../transfer/transfer_function";
-import { formatNumber } from "./format";
+import { formatNumber, formatValue } from "./format";
 import {
   kBarGap,
   kBarHeight,
@@ -137,7 +137,7 @@ export function MapPoints({ state, box, selected, showsOpacity }: Props) {
       {map.map((point, index) => {
         const opacity = opacityOf(state, point);
         const top = showsOpacity ? yOf(Math.min(opacity, 1)) : barMiddle;
-        const says = `Point ${index + 1} of ${map.length}: value ${formatNumber(point.value)}, opacity ${formatNumber(100 * opacity, 3)} %`;
+        const says = `Point ${index + 1} of ${map.length}: value ${formatValue(point.value, box.high - box.low)}, opacity ${formatNumber(100 * opacity, 3)} %`;
         return (
           <button
             key={index}

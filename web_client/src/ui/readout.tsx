@@ -36,7 +36,7 @@ export function Readout({ state }: Props) {
   const latency = state.latency.value;
   return (
     <details class="readout">
-      <summary>
+      <summary title="Pictures per second, input to drawn (median), bytes of the newest picture">
         <span>{Math.round(state.framesPerSecond.value) || "–"} fps</span>
         <span>{latency ? formatMs(latency.p50) : "– ms"}</span>
         <span>{formatBytes(picture.bytes)}</span>
