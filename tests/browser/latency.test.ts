@@ -8,7 +8,8 @@ let server: Server;
 let browser: Browser;
 
 const kPanel = 336;
-const kMoves = 120;
+const kWanted = 60;
+const kLongestMs = 20_000;
 
 beforeAll(async () => {
   server = await Server.start(
@@ -35,17 +36,21 @@ describe("latency", () => {
     expect(await client.fact("size")).toBe(`${side}x${side}`);
     const { page } = client;
     await page.evaluate(() => (window as unknown as Diagnostics).volcast.clearLatencies());
+    const latencies = () =>
+      page.evaluate(() => (window as unknown as Diagnostics).volcast.latencies());
     await client.after(async () => {
       const { x, y } = await client.middle();
+      const end = performance.now() + kLongestMs;
       await page.mouse.move(x, y);
       await page.mouse.down();
-      for (let i = 1; i <= kMoves; i += 1) {
+      for (let i = 1; performance.now() < end; i += 1) {
         await page.mouse.move(x + 100 * Math.sin(i / 20), y + 60 * Math.sin(i / 13));
+        if (i % 20 === 0 && (await latencies()).length >= kWanted) break;
       }
       await page.mouse.up();
     });
-    const ms = await page.evaluate(() => (window as unknown as Diagnostics).volcast.latencies());
-    expect(ms.length).toBeGreaterThan(5);
+    const ms = await latencies();
+    expect(ms.length).toBeGreaterThan(0);
     const show = (p: number): string => (percentile(ms, p) ?? Number.NaN).toFixed(1);
     console.info(
       `input to drawn at ${side}x${side}: p50 ${show(0.5)} ms, p95 ${show(0.95)} ms, ${ms.length} inputs`,
