@@ -20,7 +20,7 @@ TEST_F(Http, HealthAndReadiness) {
     EXPECT_EQ(ready.headers.at("content-type"), "application/json");
     const auto json = readiness();
     EXPECT_TRUE(json.at("ready").as_bool());
-    EXPECT_GE(json.at("generation").as_double(), 1);
+    EXPECT_GE(json.at("generation").to_number<double>(), 1);
     EXPECT_FALSE(json.at("gl_renderer").as_string().empty());
 }
 

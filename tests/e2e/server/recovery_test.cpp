@@ -15,7 +15,7 @@ TEST_F(Recovery, ClientsAreToldAndThenGetTheSamePictureFromANewWorker) {
     client->look(1, 2, 0.4);
     const auto before = client->waitForLossless(1, 2);
     ASSERT_TRUE(before.has_value());
-    const auto pid = static_cast<pid_t>(readiness().at("worker_pid").as_double());
+    const auto pid = static_cast<pid_t>(readiness().at("worker_pid").to_number<double>());
     ASSERT_GT(pid, 1);
     ASSERT_EQ(::kill(pid, SIGKILL), 0);
     ASSERT_TRUE(client->waitForState(1, v1::VIEW_STATE_RECOVERING).has_value()) << server().log();
@@ -30,14 +30,14 @@ TEST_F(Recovery, ClientsAreToldAndThenGetTheSamePictureFromANewWorker) {
     EXPECT_TRUE(other->waitForState(1, v1::VIEW_STATE_RECOVERING).has_value());
     other->look(1, 2, 0.1);
     EXPECT_TRUE(other->waitForFrame(1, 2).has_value());
-    EXPECT_TRUE(eventually([] { return readiness().at("losses").as_double() >= 1; }));
+    EXPECT_TRUE(eventually([] { return readiness().at("losses").to_number<double>() >= 1; }));
 }
 
 TEST_F(Recovery, AWorkerThatDiesInTheMiddleOfADragIsReplacedOnTheWay) {
     const auto client = clientWithView();
     ASSERT_TRUE(client);
     ASSERT_TRUE(eventually([] { return readiness().at("ready").as_bool(); }));
-    const auto pid = static_cast<pid_t>(readiness().at("worker_pid").as_double());
+    const auto pid = static_cast<pid_t>(readiness().at("worker_pid").to_number<double>());
     for (std::uint64_t seq = 2; seq <= 30; ++seq) {
         client->look(1, seq, 0.1 * static_cast<double>(seq));
         if (seq == 15) {
