@@ -146,5 +146,30 @@ TEST_F(PathLength, TinyAndHugeUnits) {
     }
 }
 
+// The unit tetrahedron, whose path lengths are known by hand.
+TEST_F(PathLength, OneCell) {
+    const auto cell = [](double height) {
+        return data::MeshInput{.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, height}},
+                               .cells = {{0, 1, 2, 3}},
+                               .fields = {}};
+    };
+    const auto lengthAlongZ = [&](double x, double y, double z) {
+        const auto camera = orthographic({x, y, z}, {x, y, z + 1.0}, 0.01);
+        return lengthOf(draw(sceneOf(camera, RayModel::kVolume, fog(kThin)), {1, 1}).at(0, 0).a,
+                        kThin);
+    };
+    use(cell(1.0));
+    EXPECT_NEAR(lengthAlongZ(0.25, 0.25, -1.0), 0.5, 1e-6);
+    EXPECT_NEAR(lengthAlongZ(0.1, 0.1, 0.1), 0.7, 1e-6);
+    EXPECT_NEAR(lengthAlongZ(0.6, 0.6, -1.0), 0.0, 0.0);
+    use(cell(1e-6));
+    EXPECT_NEAR(lengthAlongZ(0.25, 0.25, -1e-6), 5e-7, 5e-12);
+    EXPECT_NEAR(lengthAlongZ(0.25, 0.25, -3.0), 5e-7, 5e-12);
+    auto far = cell(1.0);
+    for (auto& point : far.points) point = point * 1000.0 + 1e6;
+    use(far);
+    EXPECT_NEAR(lengthAlongZ(1e6 + 250, 1e6 + 250, 1e6 - 1000) / 500.0, 1.0, 1e-6);
+}
+
 }  // namespace
 }  // namespace volcast
