@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 
 #include "server/commands/import_command.h"
+#include "server/commands/render_command.h"
 #include "server/commands/serve_command.h"
 
 int main(int argc, char** argv) {
@@ -10,7 +11,13 @@ int main(int argc, char** argv) {
     app.require_subcommand(1);
     int exitCode = 0;
     volcast::commands::addServeCommand(app, exitCode);
+    volcast::commands::addRenderCommand(app, exitCode);
     volcast::commands::addImportCommand(app, exitCode);
-    CLI11_PARSE(app, argc, argv);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        constexpr int kUsage = 2;
+        return app.exit(error) == 0 ? 0 : kUsage;  // 0: --help and --version.
+    }
     return exitCode;
 }

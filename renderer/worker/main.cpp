@@ -28,7 +28,7 @@ using Clock = std::chrono::steady_clock;
 
 /// Tells the server why this worker cannot start.
 int refuse(worker::Channel& channel, const Error& error, worker::ExitCode code) {
-    spdlog::error("{}", error.message);
+    spdlog::debug("{}", error.message);
     internal::v1::FromWorker message;
     *message.mutable_failed() = worker::toMessage(error);
     static_cast<void>(channel.send(message));  // A server that is gone needs no reason.

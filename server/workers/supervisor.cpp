@@ -288,6 +288,7 @@ void Supervisor::startFailed(const Error& error) {
     startError_ = error;
     backOff_.failed();
     startAllowed_ = spareAllowed_ = Clock::now() + backOff_.delay();
+    if (!everReady_) return;  // begin() hands the error to its caller.
     spdlog::error("GL worker cannot be started: {}; next try in {} ms", error.message,
                   backOff_.delay().count());
     if (main_ || backOff_.failures() < kFailuresToGiveUp) return;

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "server/workers/render_service.h"
+
+namespace volcast::commands {
+
+/// Draws one picture after the other, each waited for: a render service without mailboxes.
+class OfflineRenderer {
+public:
+    /// Errors: as workers::RenderService::create.
+    static Result<OfflineRenderer> create(const workers::RenderSettings& settings);
+
+    [[nodiscard]] workers::RenderService& service() const { return *service_; }
+    /// Errors: as the worker says, or kDeviceLost.
+    Result<workers::RenderedFrame> draw(workers::RenderRequest request);
+
+private:
+    struct Outcome;
+
+    OfflineRenderer() = default;
+
+    std::shared_ptr<Outcome> outcome_;
+    std::unique_ptr<workers::RenderService> service_;
+};
+
+/// Where this user's driver may keep compiled shaders between runs; empty: nowhere.
+std::string userCacheFolder();
+
+}  // namespace volcast::commands
