@@ -17,8 +17,13 @@ namespace {
 using Clock = std::chrono::steady_clock;
 namespace messages = volcast::internal::v1;
 
-/// Address space that a program needs besides what it reads: libraries and stacks.
-constexpr std::uint64_t kOwnAddressSpace = std::uint64_t{512} << 20;
+/// Address space that the program needs besides what it reads, for libraries and stacks: ours,
+/// Python with VTK (0.2 GB), or OpenImageIO with what it links (0.9 GB).
+std::uint64_t ownAddressSpace(const std::string& path) {
+    constexpr std::uint64_t kMib = std::uint64_t{1} << 20;
+    if (data::load::needsImages(path)) return 1536 * kMib;
+    return (data::load::needsPython(path) ? 512 : 128) * kMib;
+}
 
 double millisecondsSince(Clock::time_point start) {
     return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
@@ -63,7 +68,7 @@ base::SandboxPolicy policyFor(const data::load::Request& request,
     policy.readable = std::move(datasetPaths);
     policy.maxFileBytes = request.maxMemoryBytes;
 #ifndef __SANITIZE_ADDRESS__  // Its shadow memory alone takes terabytes of address space.
-    policy.maxAddressSpaceBytes = request.maxMemoryBytes + kOwnAddressSpace;
+    policy.maxAddressSpaceBytes = request.maxMemoryBytes + ownAddressSpace(request.path);
 #endif
     if (!data::load::needsPython(request.path)) return policy;
     policy.mayExecute = true;  // Until its reader has started.
@@ -93,7 +98,8 @@ Result<data::Dataset> build(data::load::Loaded& loaded) {
     return data::Dataset{std::move(*built)};
 }
 
-Result<Outcome> import(const data::load::Request& request, ProgressSender& progress) {
+Result<Outcome> import(const data::load::Request& request, data::load::ImageReader readImages,
+                       ProgressSender& progress) {
     const auto paths = data::load::neededPaths(request.path);
     if (!paths) return paths.error();
     auto sandboxed = base::enterSandbox(policyFor(request, *paths));
@@ -102,7 +108,8 @@ Result<Outcome> import(const data::load::Request& request, ProgressSender& progr
         return fail(error.code, request.path + ": " + error.message, error.field);
     };
     auto loaded = data::load::load(
-        request, [&](const std::string& stage, double fraction) { progress(stage, fraction); });
+        request, [&](const std::string& stage, double fraction) { progress(stage, fraction); },
+        readImages);
     if (!loaded) return loaded.error();
     progress("build", 0.0);
     const auto dataset = build(*loaded);
@@ -116,9 +123,10 @@ Result<Outcome> import(const data::load::Request& request, ProgressSender& progr
 }
 
 /// The same, with the ends of memory and of the library's patience as errors.
-Result<Outcome> importCatching(const data::load::Request& request, ProgressSender& progress) {
+Result<Outcome> importCatching(const data::load::Request& request,
+                               data::load::ImageReader readImages, ProgressSender& progress) {
     try {
-        return import(request, progress);
+        return import(request, readImages, progress);
     } catch (const std::bad_alloc&) {
         return fail(ErrorCode::kLimitExceeded, request.path + ": needs more memory than the " +
                                                    std::to_string(request.maxMemoryBytes >> 20) +
@@ -130,10 +138,11 @@ Result<Outcome> importCatching(const data::load::Request& request, ProgressSende
 
 }  // namespace
 
-Result<void> runJob(const data::load::Request& request, worker::Channel& channel) {
+Result<void> runJob(const data::load::Request& request, data::load::ImageReader readImages,
+                    worker::Channel& channel) {
     const auto start = Clock::now();
     ProgressSender progress{channel};
-    const auto outcome = importCatching(request, progress);
+    const auto outcome = importCatching(request, readImages, progress);
     messages::FromImport message;
     if (!outcome) {
         message.mutable_refused()->set_code(static_cast<int>(outcome.error().code));

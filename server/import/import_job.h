@@ -11,6 +11,11 @@ namespace volcast::import {
 ///
 /// Enters the sandbox before it reads anything. Needs one thread, once a process.
 /// Errors: kDeviceLost where nobody listens any more.
-Result<void> runJob(const data::load::Request& request, worker::Channel& channel);
+Result<void> runJob(const data::load::Request& request, data::load::ImageReader readImages,
+                    worker::Channel& channel);
+
+/// main() of both import programs: reads the arguments and runs the job. Where the dataset needs
+/// OpenImageIO and `readImages` is null, `volcast-import-images` beside this program takes over.
+int importMain(int argc, char** argv, data::load::ImageReader readImages);
 
 }  // namespace volcast::import

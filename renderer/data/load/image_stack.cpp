@@ -11,6 +11,7 @@
 
 #include "renderer/data/load/file.h"
 #include "renderer/data/load/formats.h"
+#include "renderer/data/load/tiff_pages.h"
 
 namespace volcast::data::load {
 
@@ -220,7 +221,9 @@ Result<void> appendFile(const std::string& path, Stack& stack, std::vector<std::
         if (done) done = append(path, **input, page, stack);
         if (!done) return done;
     }
-    return {};
+    if (formatOf(path)->name != "TIFF") return {};
+    const auto pages = tiffPages(path);
+    return pages ? Result<void>{} : pages.error();
 }
 
 }  // namespace

@@ -8,7 +8,6 @@
 
 #include "renderer/data/load/demo.h"
 #include "renderer/data/load/formats.h"
-#include "renderer/data/load/image_stack.h"
 #include "renderer/data/load/python_reader.h"
 #include "renderer/data/load/surface_files.h"
 #include "renderer/data/load/tetgen_mesh.h"
@@ -81,17 +80,28 @@ bool needsPython(const std::string& path) {
            format->family == Family::kMeshio;
 }
 
-Result<Loaded> load(const Request& request, const Progress& progress) {
+bool needsImages(const std::string& path) {
+    if (isDemo(path)) return false;
+    std::error_code error;
+    if (fs::is_directory(path, error)) return true;
+    const Format* format = formatOf(path);
+    return format != nullptr && format->family == Family::kImages;
+}
+
+Result<Loaded> load(const Request& request, const Progress& progress, ImageReader readImages) {
     progress("read", 0.0);
     if (isDemo(request.path)) return loadDemo(request.path);
-    std::error_code error;
-    if (fs::is_directory(request.path, error)) return readImages(request, progress);
+    if (needsImages(request.path)) {
+        if (readImages != nullptr) return readImages(request, progress);
+        return fail(ErrorCode::kUnsupported,
+                    request.path + ": this program was built without OpenImageIO");
+    }
     const Format* format = formatOf(request.path);
     if (format == nullptr) return unknownFormat(request.path);
     switch (format->family) {
         case Family::kTetgenMesh: return readTetgenMesh(request, progress);
         case Family::kSurface: return readSurface(request, progress);
-        case Family::kImages: return readImages(request, progress);
+        case Family::kImages: break;  // Above.
         case Family::kVtk:
         case Family::kGrid:
         case Family::kMeshio: return readWithPython(*format, request, progress);

@@ -4,7 +4,11 @@
 #define TETLIBRARY  // The header then declares the library's functions.
 #endif
 #include <algorithm>
+#include <exception>
+#include <future>
 #include <new>
+#include <thread>
+#include <unistd.h>
 #include <utility>
 
 #include <tetgen.h>
@@ -160,18 +164,51 @@ Tetrahedra copyResult(const Surface& surface, const tetgenio& out) {
     return result;
 }
 
+/// Where the thread that runs TetGen leaves how it ended.
+std::promise<Result<void>>* ending = nullptr;  // NOLINT: a terminate handler has no arguments
+
+/// Called for an exception that nobody catches, before any destructor ran.
+[[noreturn]] void reportAndPark() {
+    Error error = meaning(0);
+    try {
+        std::rethrow_exception(std::current_exception());
+    } catch (int thrown) {
+        error = meaning(thrown);
+    } catch (const std::bad_alloc&) {
+        error = meaning(1);
+    }
+    ending->set_value(std::move(error));
+    for (;;) ::pause();
+}
+
+/// Runs TetGen on a thread of its own and leaves it there if it throws: TetGen 1.5 frees its
+/// memory before it throws and once more in its destructors, so its stack must not be unwound.
+Result<void> runTetgen(std::string& switches, tetgenio& in, tetgenio& out) {
+    std::promise<Result<void>> promise;
+    auto ended = promise.get_future();
+    ending = &promise;
+    const std::terminate_handler before = std::set_terminate(&reportAndPark);
+    std::thread runner{[&] {
+        ::tetrahedralize(switches.data(), &in, &out);
+        promise.set_value(Result<void>{});
+    }};
+    auto result = ended.get();
+    std::set_terminate(before);
+    if (result) {
+        runner.join();
+    } else {
+        runner.detach();
+    }
+    return result;
+}
+
 Result<Tetrahedra> run(const Surface& surface, std::string switches) {
     tetgenio in;
     tetgenio out;
     copySurface(surface, in);
     switches += "Qz";  // Quiet; indices from 0.
-    try {
-        ::tetrahedralize(switches.data(), &in, &out);
-    } catch (int thrown) {
-        return meaning(thrown);
-    } catch (const std::bad_alloc&) {
-        return meaning(1);
-    }
+    auto ended = runTetgen(switches, in, out);
+    if (!ended) return ended.error();
     if (out.numberoftetrahedra <= 0) {
         return refused(
             "TetGen made no cells: the surface is not closed, or the points lie in one "

@@ -14,7 +14,7 @@ namespace volcast::data::load {
 /// A flat part of a surface: one outline, and more for what is cut out of it or lies in it.
 struct Facet {
     std::vector<std::vector<std::int64_t>> polygons = {};  ///< Rings of point indices.
-    std::vector<glm::dvec3> holes = {};                    ///< A point in each part that is cut out.
+    std::vector<glm::dvec3> holes = {};  ///< A point in each part that is cut out.
 };
 
 struct Region {

@@ -21,9 +21,13 @@ class Errors:
         vtkOutputWindow.SetInstance(self.window)
 
     def first(self):
-        found = re.search(r"ERROR: In [^\n]*\n[^\n]*?\(0x[0-9a-f]+\): (.*?)(\n\n|\Z)",
-                          self.window.GetOutput(), re.S)
-        return " ".join(found.group(1).split()) if found else None
+        """The first error. Some are only warnings to VTK, such as values that are missing."""
+        for kind, text in re.findall(r"(ERROR|Warning): In [^\n]*\n(.*?)(?:\n\n|\Z)",
+                                     self.window.GetOutput(), re.S):
+            text = re.sub(r"^\w+ \(0x[0-9a-f]+\): ", "", text)
+            if kind == "ERROR" or "rror" in text:
+                return " ".join(text.split())
+        return None
 
     def check(self, what):
         message = self.first()

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+
+#include "renderer/base/result.h"
+
+namespace volcast::data::load {
+
+/// Pages that a TIFF file says it has, found by following its directories.
+///
+/// libtiff, and so OpenImageIO, takes a chain that is broken (in a file that was cut off) for one
+/// that ends. Source: TIFF 6.0, section 2, and the BigTIFF design.
+/// Errors: kInvalidArgument naming path and page, kIo.
+Result<int> tiffPages(const std::string& path);
+
+}  // namespace volcast::data::load

@@ -1,0 +1,39 @@
+#include <filesystem>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+
+#include "server/import/import_job.h"
+
+namespace volcast::import {
+
+namespace {
+
+/// Becomes `volcast-import-images` with the same arguments; comes back only if there is none.
+void becomeImagesProgram(char** argv) {
+    std::error_code error;
+    auto program = std::filesystem::read_symlink("/proc/self/exe", error);
+    if (error) return;
+    program.replace_filename("volcast-import-images");
+    ::execv(program.c_str(), argv);
+}
+
+}  // namespace
+
+int importMain(int argc, char** argv, data::load::ImageReader readImages) {
+    CLI::App app{
+        "Reads one dataset in a sandbox. Started by volcast, which listens at descriptor 3."};
+    data::load::Request request;
+    std::vector<double> spacing{0.0, 0.0, 0.0};
+    app.add_option("path", request.path, "File, folder, demo:mesh or demo:volume")->required();
+    app.add_option("--tetgen-switches", request.tetgenSwitches, "How TetGen fills surfaces");
+    app.add_option("--spacing", spacing, "Of the slices of image stacks")->expected(3);
+    app.add_option("--max-memory", request.maxMemoryBytes, "In bytes");
+    CLI11_PARSE(app, argc, argv);
+    request.spacing = {spacing[0], spacing[1], spacing[2]};
+    if (readImages == nullptr && data::load::needsImages(request.path)) becomeImagesProgram(argv);
+    worker::Channel channel{base::FileDescriptor{worker::kChannelFd}};
+    return runJob(request, readImages, channel).has_value() ? 0 : 1;
+}
+
+}  // namespace volcast::import
