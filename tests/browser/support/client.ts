@@ -39,13 +39,23 @@ export class Client {
     url: string,
     options: BrowserContextOptions = {},
   ): Promise<Client> {
+    const client = await Client.visit(browser, url, options);
+    await client.settled();
+    return client;
+  }
+
+  /** Opens the page and waits for nothing more. */
+  static async visit(
+    browser: Browser,
+    url: string,
+    options: BrowserContextOptions = {},
+  ): Promise<Client> {
     const context = await browser.newContext({
       viewport: { width: 1280, height: 800 },
       ...options,
     });
     const client = new Client(await context.newPage());
     await client.page.goto(url);
-    await client.settled();
     return client;
   }
 

@@ -5,17 +5,20 @@ function setUp(open = true) {
   const sent: { dirty: Dirty; seq: bigint }[] = [];
   const frames: (() => void)[] = [];
   const link = { open };
+  const clock = { ms: 0 };
   const pacer = new InputPacer(
     (dirty, seq) => {
       if (link.open) sent.push({ dirty: { ...dirty }, seq });
       return link.open;
     },
     (run) => frames.push(run),
+    () => clock.ms,
   );
   const nextFrame = (): void => {
+    clock.ms += 16;
     for (const run of frames.splice(0)) run();
   };
-  return { pacer, sent, nextFrame, link };
+  return { pacer, sent, nextFrame, link, clock };
 }
 
 describe("input pacer", () => {
@@ -37,6 +40,33 @@ describe("input pacer", () => {
     pacer.answered(2n);
     expect(sent).toHaveLength(2);
     expect(pacer.settled).toBe(true);
+  });
+
+  it("sends a few updates for one slow answer, and never many", () => {
+    const { pacer, sent, nextFrame, clock } = setUp();
+    let answeredCount = 0;
+    for (let answer = 0; answer < 20; answer += 1) {
+      for (let frame = 0; frame < 30; frame += 1) {
+        pacer.mark("camera", clock.ms);
+        nextFrame();
+      }
+      const before = sent.length;
+      pacer.answered(sent[sent.length - 1]?.seq ?? 0n);
+      if (answer > 10) expect(before - answeredCount).toBeLessThanOrEqual(4);
+      if (answer > 10) expect(before - answeredCount).toBeGreaterThanOrEqual(2);
+      answeredCount = before;
+    }
+  });
+
+  it("goes on after a second without any answer", () => {
+    const { pacer, sent, nextFrame, clock } = setUp();
+    for (let frame = 0; frame < 20; frame += 1) {
+      pacer.mark("camera", clock.ms);
+      nextFrame();
+    }
+    expect(sent).toHaveLength(4);
+    for (let frame = 0; frame < 100; frame += 1) nextFrame();
+    expect(sent).toHaveLength(5);
   });
 
   it("does not wait longer than the next animation frame", () => {

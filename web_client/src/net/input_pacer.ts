@@ -8,25 +8,38 @@ export interface Dirty {
 /** Sends one Update; false where there is no open view to send it to. */
 export type SendUpdate = (dirty: Readonly<Dirty>, inputSeq: bigint) => boolean;
 
+/** Updates that may leave for one answer: more cannot be drawn, only sent, read and replaced. */
+const kUpdatesAFrame = 3;
+/** Updates without an answer, after which only an answer, or this much silence, brings the next. */
+const kMostUnanswered = 4;
+const kSilenceMs = 1000;
+
 /**
- * Decides when the newest state leaves: at once while the server owes nothing, else when it
- * answers or with the next animation frame. Whatever changes in between is sent once, newest
- * wins. Also remembers when each Update's oldest input happened, to measure input to drawn.
+ * Decides when the newest state leaves: at once while the server owes nothing; else when it
+ * answers, and in between with animation frames, a few times in the time an answer takes, so that
+ * what the server draws next is never old. Whatever changes in between is sent once, newest wins.
+ * Also remembers when each Update's oldest input happened, to measure input to drawn.
  */
 export class InputPacer {
   readonly #send: SendUpdate;
   readonly #later: (run: () => void) => void;
+  readonly #now: () => number;
   #dirty: Dirty = { camera: false, scene: false, viewport: false };
   #inputAt: number | undefined;
   #waiting = false;
   #newest = 0n;
   #answered = 0n;
+  /** When Updates without an answer were sent, oldest first. */
+  readonly #unanswered = new Map<bigint, number>();
+  #answerMs = 0;
+  #sentAt = Number.NEGATIVE_INFINITY;
   readonly #inputTimes = new Map<bigint, number>();
 
-  /** `later` runs a function with the next animation frame. */
-  constructor(send: SendUpdate, later: (run: () => void) => void) {
+  /** `later` runs a function with the next animation frame; `now` is a clock in ms. */
+  constructor(send: SendUpdate, later: (run: () => void) => void, now: () => number) {
     this.#send = send;
     this.#later = later;
+    this.#now = now;
   }
 
   /** The newest number that was given out. */
@@ -51,6 +64,7 @@ export class InputPacer {
   takeForOpen(): bigint {
     this.#newest += 1n;
     this.#inputTimes.clear(); // Opening takes as long as an import: no measure of a response.
+    this.#unanswered.clear();
     this.#clear();
     return this.#newest;
   }
@@ -58,6 +72,11 @@ export class InputPacer {
   /** A frame of `inputSeq` arrived: the server is free for the next state. */
   answered(inputSeq: bigint): void {
     if (inputSeq > this.#answered) this.#answered = inputSeq;
+    for (const [seq, sentAt] of this.#unanswered) {
+      if (seq > inputSeq) break;
+      this.#answerMs += (this.#now() - sentAt - this.#answerMs) / 4;
+      this.#unanswered.delete(seq);
+    }
     if (this.#isDirty()) this.#flush();
   }
 
@@ -84,8 +103,15 @@ export class InputPacer {
     this.#waiting = true;
     this.#later(() => {
       this.#waiting = false;
-      this.#flush();
+      if (this.#isTime()) this.#flush();
+      else if (this.#isDirty()) this.#schedule();
     });
+  }
+
+  #isTime(): boolean {
+    const since = this.#now() - this.#sentAt;
+    if (this.#unanswered.size >= kMostUnanswered) return since > kSilenceMs;
+    return since >= this.#answerMs / kUpdatesAFrame;
   }
 
   #flush(): void {
@@ -93,6 +119,8 @@ export class InputPacer {
     const seq = this.#newest + 1n;
     if (!this.#send(this.#dirty, seq)) return;
     this.#newest = seq;
+    this.#sentAt = this.#now();
+    this.#unanswered.set(seq, this.#sentAt);
     if (this.#inputAt !== undefined) this.#inputTimes.set(seq, this.#inputAt);
     this.#clear();
   }

@@ -80,6 +80,7 @@ export class Session {
     this.#pacer = new InputPacer(
       (dirty, inputSeq) => this.#sendUpdate(dirty, inputSeq),
       (run) => requestAnimationFrame(run),
+      () => performance.now(),
     );
     setInterval(() => this.#ping(), kPingMs);
   }
@@ -163,6 +164,9 @@ export class Session {
     const { dataset, document } = wish;
     this.#opening = { ...wish, view };
     this.#state.pendingDataset.value = dataset || undefined;
+    if (this.#view === undefined) {
+      this.#state.view.value = { state: ViewState.WAITING, message: "" };
+    }
     const box = dataset === this.#state.dataset.value?.id ? this.#state.bounds.value : undefined;
     const scene = document && sceneMessage(document.scene, document.orbit, box, document.edit);
     const inputSeq = this.#pacer.takeForOpen();

@@ -1,3 +1,4 @@
+import { useEffect, useRef } from "preact/hooks";
 import { type DatasetInfo, DatasetKind, DatasetState } from "../net/gen/volcast/v1/session_pb";
 import type { AppState } from "../state/app_state";
 import { formatBytes, formatCount } from "./format";
@@ -11,8 +12,6 @@ function describe(info: DatasetInfo): string {
     parts.push(`Mesh, ${formatCount(Number(info.cells))} cells`);
   } else if (info.kind === DatasetKind.VOLUME) {
     parts.push(`Volume, ${info.voxels.join(" × ")}`);
-  } else if (info.state === DatasetState.LISTED) {
-    parts.push("Not opened yet");
   }
   if (size) parts.push(size);
   return parts.join(" · ");
@@ -38,15 +37,19 @@ interface RowProps {
 }
 
 function Row({ info, shown, pending, port }: RowProps) {
+  const row = useRef<HTMLLIElement>(null);
+  useEffect(() => {
+    if (shown) row.current?.scrollIntoView({ block: "nearest" });
+  }, [shown]);
   const failed = info.state === DatasetState.FAILED;
+  const opening = pending && info.state !== DatasetState.IMPORTING && !failed;
+  const note = opening ? "Opening" : describe(info);
   const choose = (): void => (shown ? undefined : port.openDataset(info.id));
   return (
-    <li class="dataset" data-shown={shown ? "" : undefined} data-dataset={info.id}>
+    <li ref={row} class="dataset" data-shown={shown ? "" : undefined} data-dataset={info.id}>
       <button type="button" class="dataset-choose" aria-pressed={shown} onClick={choose}>
         <span class="dataset-name">{info.name || info.id}</span>
-        <span class="dataset-note">
-          {pending && info.state !== DatasetState.IMPORTING ? "Opening" : describe(info)}
-        </span>
+        {note && <span class="dataset-note">{note}</span>}
       </button>
       {info.state === DatasetState.IMPORTING && <Progress info={info} />}
       {failed && (
