@@ -22,14 +22,40 @@ def check_claims(path):
                               "cannot hold", LIMIT)
 
 
+def values_by_block(cells, raw):
+    """Element data, taken apart by blocks of cells.
+
+    Replaces a function of meshio 5.0 that fails where there is more than one block. Gmsh may write
+    data for the solid elements alone; the others then get zeros, and are left out later.
+    """
+    import numpy
+    sizes = [len(nodes) for _, nodes in cells]
+    solid = [size if kind in KINDS else 0 for (kind, _), size in zip(cells, sizes)]
+    result = {}
+    for name, values in raw.items():
+        values = numpy.asarray(values)
+        if len(values) == sum(solid) != sum(sizes):
+            whole = numpy.zeros((sum(sizes), *values.shape[1:]))
+            whole[numpy.repeat([size > 0 for size in solid], sizes)] = values
+            values = whole
+        if len(values) != sum(sizes):
+            raise Refusal(f'element data "{name}" has {len(values)} values, there are {sum(sizes)} '
+                          f"elements ({sum(solid)} of them solid)", UNSUPPORTED)
+        result[name] = numpy.split(values, numpy.cumsum(sizes)[:-1])
+    return result
+
+
 def read(path, send):
     check_claims(path)
     import io
     import numpy
     said = sys.stdout = io.StringIO()
-    from meshio.gmsh import read as read_gmsh
+    from meshio.gmsh import _gmsh22, _gmsh41, read as read_gmsh
+    _gmsh22.cell_data_from_raw = _gmsh41.cell_data_from_raw = values_by_block
     try:
         mesh = read_gmsh(path)
+    except Refusal:
+        raise
     except Exception as error:
         text = str(error) or type(error).__name__
         raise Refusal(f"meshio cannot read it ({text})") from error

@@ -31,7 +31,8 @@ Error systemError(const std::string& path) {
 std::string suffixes() {
     std::string list;
     for (const Format& format : kFormats) {
-        list += (list.empty() ? "" : " ") + std::string{format.suffix};
+        if (!list.empty()) list += ' ';
+        list += format.suffix;
     }
     return list;
 }

@@ -227,8 +227,8 @@ Result<Tetrahedra> tetrahedralize(const Surface& surface, const std::string& swi
         return refused("has " + std::to_string(surface.points.size()) + " points and " +
                        std::to_string(surface.facets.size()) + " facets, too few for a solid");
     }
-    std::string all = switches;
-    if (all.find('p') == std::string::npos) all.insert(0, "p");
+    std::string all = switches.find('p') == std::string::npos ? "p" : "";
+    all += switches;
     if (!surface.regions.empty() && all.find('A') == std::string::npos) all += "A";
     return run(surface, all);
 }
