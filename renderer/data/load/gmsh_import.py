@@ -29,8 +29,9 @@ def values_by_block(cells, raw):
     data for the solid elements alone; the others then get zeros, and are left out later.
     """
     import numpy
-    sizes = [len(nodes) for _, nodes in cells]
-    solid = [size if kind in KINDS else 0 for (kind, _), size in zip(cells, sizes)]
+    pairs = [(c.type, c.data) if hasattr(c, "type") else (c[0], c[-1]) for c in cells]
+    sizes = [len(nodes) for _, nodes in pairs]
+    solid = [size if kind in KINDS else 0 for (kind, _), size in zip(pairs, sizes)]
     result = {}
     for name, values in raw.items():
         values = numpy.asarray(values)
@@ -50,8 +51,9 @@ def read(path, send):
     import io
     import numpy
     said = sys.stdout = io.StringIO()
-    from meshio.gmsh import _gmsh22, _gmsh41, read as read_gmsh
-    _gmsh22.cell_data_from_raw = _gmsh41.cell_data_from_raw = values_by_block
+    from meshio.gmsh import _gmsh22, _gmsh40, _gmsh41, read as read_gmsh
+    for module in (_gmsh22, _gmsh40, _gmsh41):
+        module.cell_data_from_raw = values_by_block
     try:
         mesh = read_gmsh(path)
     except Refusal:
