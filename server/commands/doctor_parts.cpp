@@ -1,0 +1,126 @@
+#include <array>
+
+#include "renderer/base/sandbox.h"
+#include "server/commands/child_output.h"
+#include "server/commands/findings.h"
+#include "server/video/encoder.h"
+#include "server/workers/child_process.h"
+#include "server/workers/import_service.h"
+
+namespace volcast::commands {
+
+namespace {
+
+/// Python modules by what they read.
+struct Reader {
+    const char* module;
+    const char* formats;
+    const char* package;
+};
+constexpr std::array kReaders{
+    Reader{"vtkmodules.vtkIOXML", "VTU, VTI", "python3-vtk9"},
+    Reader{"vtkmodules.vtkIOLegacy", "legacy VTK", "python3-vtk9"},
+    Reader{"vtkmodules.vtkIOExodus", "Exodus", "python3-vtk9"},
+    Reader{"vtkmodules.vtkIOImage", "MHD, NRRD, NIfTI", "python3-vtk9"},
+    Reader{"meshio", "XDMF, Gmsh", "python3-meshio"},
+};
+
+Finding program(const std::string& name, bool required, const std::string& cost) {
+    const auto output = outputOf(workers::besideThisProgram(name), {"--help"});
+    const bool ok = output && output->succeeded;
+    std::string detail = "starts";
+    if (!output) detail = output.error().message;
+    if (output && !output->succeeded) detail = name + " " + output->ending;
+    return {.group = "import",
+            .name = name,
+            .ok = ok,
+            .required = required,
+            .detail = detail,
+            .cost = cost};
+}
+
+Finding python(const Reader& reader) {
+    // The module is loaded, not only found: a broken installation counts as missing.
+    const auto output =
+        outputOf("/usr/bin/python3", {"-c", "import " + std::string{reader.module}});
+    const bool ok = output && output->succeeded;
+    return {
+        .group = "import",
+        .name = reader.formats,
+        .ok = ok,
+        .required = false,
+        .detail =
+            std::string{"python module "} + reader.module +
+            (ok ? "" : " cannot be loaded; it is in the package " + std::string{reader.package}),
+        .cost = std::string{reader.formats} + " files cannot be read"};
+}
+
+}  // namespace
+
+std::vector<Finding> findCodecs() {
+    const std::vector<std::byte> pixels(std::size_t{4} * 16 * 16, std::byte{100});
+    const video::ImageView image{.size = {16, 16}, .rgba = pixels};
+    std::vector<Finding> findings;
+    for (const bool jpeg : {true, false}) {
+        const auto bytes = jpeg ? video::encodeJpeg(image) : video::encodePng(image);
+        findings.push_back({.group = "codecs",
+                            .name = jpeg ? "JPEG 4:4:4" : "PNG",
+                            .ok = bytes.has_value(),
+                            .required = true,
+                            .detail = bytes ? "encodes" : bytes.error().message,
+                            .cost = jpeg ? "no pictures while things move"
+                                         : "no exact pictures once things rest"});
+    }
+    return findings;
+}
+
+std::vector<Finding> findImportFormats() {
+    std::vector<Finding> findings;
+    findings.push_back(program("volcast-import", true, "no data can be read"));
+    workers::ImportRequest request;
+    request.path = "demo:mesh";
+    const auto demo = workers::runImport(request, {}, {});
+    findings.push_back(
+        {.group = "import",
+         .name = "TetGen",
+         .ok = demo.has_value(),
+         .required = true,
+         .detail = demo ? "made the demo mesh of " + std::to_string(demo->summary.cells) + " cells"
+                        : demo.error().message,
+         .cost = "surfaces and point sets cannot be filled with cells"});
+    findings.push_back(program("volcast-import-images", false,
+                               "TIFF and other image stacks cannot be read (OpenImageIO)"));
+    for (const Reader& reader : kReaders) findings.push_back(python(reader));
+    return findings;
+}
+
+std::vector<Finding> findSandbox() {
+    const base::SandboxFeatures features = base::sandboxFeatures();
+    const int abi = features.landlockAbi;
+    return {{.group = "sandbox",
+             .name = "seccomp",
+             .ok = features.seccomp,
+             .required = true,
+             .detail = features.seccomp ? "filters are granted" : "this kernel has no filters",
+             .cost = "workers and importers refuse to start"},
+            {.group = "sandbox",
+             .name = "no new privileges",
+             .ok = features.noNewPrivileges,
+             .required = true,
+             .detail = features.noNewPrivileges ? "granted" : "refused",
+             .cost = "workers and importers refuse to start"},
+            {.group = "sandbox",
+             .name = "Landlock files",
+             .ok = abi >= 1,
+             .required = false,
+             .detail = abi >= 1 ? "version " + std::to_string(abi) : "not in this kernel",
+             .cost = "a hostile file that takes over an importer can read the user's other files"},
+            {.group = "sandbox",
+             .name = "Landlock network",
+             .ok = abi >= 4,
+             .required = false,
+             .detail = abi >= 4 ? "granted" : "needs version 4, Linux 6.7",
+             .cost = "the network is denied by seccomp alone"}};
+}
+
+}  // namespace volcast::commands
