@@ -133,8 +133,9 @@ Result<void> checkSlot(const Assembled& assembled, const std::vector<FunctionDef
             first = &origin;
         }
         if (first == nullptr) {
-            return fail(ErrorCode::kShaderBuild,
-                        chunk + ":1: the slot " + slot + " needs a function " + function + "()");
+            std::string message = chunk;
+            message.append(":1: the slot ").append(slot).append(" needs a function ");
+            return fail(ErrorCode::kShaderBuild, message.append(function).append("()"));
         }
     }
     return {};

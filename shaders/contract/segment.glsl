@@ -14,6 +14,6 @@
 struct Segment {
     float front;     // value where the ray enters
     float back;      // value where it leaves
-    float length;    // world units, >= 0
+    float extent;    // length in world units, >= 0; glslang takes a member .length for a call
     float distance;  // from the ray's origin to the front end, world units
 };

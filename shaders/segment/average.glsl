@@ -5,6 +5,6 @@
 
 vec4 integrateSegment(Segment piece) {
     vec4 matter = classify(0.5 * (piece.front + piece.back));
-    float opacity = opacityOf(matter.a * piece.length);
+    float opacity = opacityOf(matter.a * piece.extent);
     return vec4(matter.rgb * opacity, opacity);
 }
