@@ -229,27 +229,27 @@ Result<void> check(const Mesh& mesh) {
         mesh.vertices.size() > kMaxMeshItems || mesh.neighbours.size() != mesh.cells.size()) {
         return damaged("wrong number of cells or vertices");
     }
-    if (const auto cells = checkCells(mesh); !cells) return cells;
-    if (const auto neighbours = checkNeighbours(mesh); !neighbours) return neighbours;
-    if (const auto boundary = checkBoundary(mesh); !boundary) return boundary;
+    if (auto cells = checkCells(mesh); !cells) return cells;
+    if (auto neighbours = checkNeighbours(mesh); !neighbours) return neighbours;
+    if (auto boundary = checkBoundary(mesh); !boundary) return boundary;
     if (mesh.fields.size() > kMaxFields) return damaged("too many fields");
     std::set<std::string> names;
     for (const Field& field : mesh.fields) {
-        if (const auto name = checkName(field.name, field.unit, names); !name) return name;
-        if (const auto checked = checkField(field, mesh); !checked) return checked;
+        if (auto name = checkName(field.name, field.unit, names); !name) return name;
+        if (auto checked = checkField(field, mesh); !checked) return checked;
     }
     return {};
 }
 
 Result<void> check(const Volume& volume) {
-    if (const auto grid = checkGrid(volume); !grid) return grid;
+    if (auto grid = checkGrid(volume); !grid) return grid;
     if (volume.channels.empty() || volume.channels.size() > kMaxChannels) {
         return damaged("wrong number of channels");
     }
     std::set<std::string> names;
     for (const Channel& channel : volume.channels) {
-        if (const auto name = checkName(channel.name, channel.unit, names); !name) return name;
-        if (const auto checked = checkChannel(channel, volume); !checked) return checked;
+        if (auto name = checkName(channel.name, channel.unit, names); !name) return name;
+        if (auto checked = checkChannel(channel, volume); !checked) return checked;
     }
     return {};
 }
