@@ -24,7 +24,8 @@ glm::vec4 vector(const glm::dvec3& v, double w = 0.0) {
 /// Rows of a matrix, turned into GL's columns.
 glm::mat4 fromRows(const glm::dvec4& x, const glm::dvec4& y, const glm::dvec4& z,
                    const glm::dvec4& w) {
-    return glm::mat4(glm::transpose(glm::dmat4(x, y, z, w)));
+    const glm::dmat4 matrix = glm::transpose(glm::dmat4(x, y, z, w));
+    return {matrix};
 }
 
 glm::mat4 clipFromData(const Camera& camera, const CameraFrame& axes, const glm::dvec2& half,
@@ -50,7 +51,7 @@ glm::mat4 gridFromData(const data::Volume& volume) {
     for (int axis = 0; axis < 3; ++axis) {
         for (int i = 0; i < 3; ++i) matrix[i][axis] = axes[axis][i] / volume.spacing[axis];
     }
-    return glm::mat4(matrix);
+    return {matrix};
 }
 
 }  // namespace

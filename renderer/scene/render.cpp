@@ -244,10 +244,10 @@ Result<void> DeviceRenderer::prepare(Frame& frame) {
     view.rays = rays;
     frame.cameraVersion = view.cameraVersion;
     for (LayerDraw& draw : frame.draws) {
-        const Result<void> prepared = prepareLayer(frame, draw);
+        Result<void> prepared = prepareLayer(frame, draw);
         if (!prepared) return prepared;
     }
-    const Result<void> sent = sendBlocks(frame);
+    Result<void> sent = sendBlocks(frame);
     if (!sent) return sent;
     return device_.check("uploading the scene");
 }
@@ -261,7 +261,7 @@ Result<void> DeviceRenderer::prepareLayer(Frame& frame, LayerDraw& draw) {
     draw.state = &state;
     draw.constants.push_back({"kEndsAtSurfaces", draw.plan->has(plan::kEndsAtSurfaces)});
     if (needsField(*draw.layer)) {
-        const Result<void> set = state.map.set(device_, draw.layer->map);
+        Result<void> set = state.map.set(device_, draw.layer->map);
         if (!set) return set;
         draw.constants.push_back(state.map.constant());
     }
