@@ -1,0 +1,171 @@
+// frame/<data>/<model>/<side>: one orbit step of the demo through a real worker, until its picture
+// is here. recovery/<what>: SIGKILL to the next correct picture.
+#include <condition_variable>
+#include <csignal>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <utility>
+
+#include <benchmark/benchmark.h>
+
+#include "renderer/scene/default_scene.h"
+#include "server/workers/import_service.h"
+#include "server/workers/render_service.h"
+
+namespace volcast::bench {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// A service with both demos; each picture is waited for.
+class Stage {
+public:
+    explicit Stage(bool spare) {
+        workers::RenderSettings settings;
+        settings.warmSpare = spare;
+        settings.frameDeadline = std::chrono::milliseconds{120'000};
+        auto service =
+            workers::RenderService::create(settings, {.rendered =
+                                                          [this](workers::RenderedFrame frame) {
+                                                              const std::scoped_lock lock{mutex_};
+                                                              frame_ = std::move(frame);
+                                                              came_.notify_all();
+                                                          },
+                                                      .failed = {},
+                                                      .recovering = {}});
+        if (!service) {
+            error_ = service.error().message;
+            return;
+        }
+        service_ = *std::move(service);
+        for (const char* id : {"demo:mesh", "demo:volume"}) {
+            workers::ImportRequest request;
+            request.path = id;
+            auto data = workers::runImport(request, {}, {});
+            if (!data) {
+                error_ = data.error().message;
+                return;
+            }
+            summaries_[id] = data->summary;
+            service_->addDataset(id, std::move(data->packed));
+        }
+    }
+
+    [[nodiscard]] const std::string& error() const { return error_; }
+    [[nodiscard]] workers::RenderService& service() { return *service_; }
+
+    [[nodiscard]] workers::RenderRequest request(const std::string& id, scene::RayModel model,
+                                                 int side) const {
+        const data::DatasetSummary& summary = summaries_.at(id);
+        workers::RenderRequest request;
+        request.view = 1;
+        request.scene = scene::defaultScene(id, summary);
+        request.scene.layers = {
+            scene::defaultLayer(id, summary, summary.fields.front().name, model)};
+        request.size = {side, side};
+        return request;
+    }
+
+    std::optional<workers::RenderedFrame> draw(const workers::RenderRequest& request) {
+        {
+            const std::scoped_lock lock{mutex_};
+            frame_.reset();
+        }
+        service_->submit(request);
+        return wait();
+    }
+
+    std::optional<workers::RenderedFrame> wait() {
+        std::unique_lock lock{mutex_};
+        came_.wait_for(lock, std::chrono::seconds{120}, [this] { return frame_.has_value(); });
+        return std::exchange(frame_, std::nullopt);
+    }
+
+private:
+    std::map<std::string, data::DatasetSummary> summaries_;
+    std::mutex mutex_;
+    std::condition_variable came_;
+    std::optional<workers::RenderedFrame> frame_;
+    std::string error_;
+    std::unique_ptr<workers::RenderService> service_;  // Ends first: it calls back.
+};
+
+void frame(benchmark::State& state, const std::string& id, scene::RayModel model) {
+    Stage stage{false};
+    if (!stage.error().empty()) return state.SkipWithError(stage.error().c_str());
+    const int side = static_cast<int>(state.range(0));
+    workers::RenderRequest request = stage.request(id, model, side);
+    if (!stage.draw(request)) return state.SkipWithError("the first picture never came");
+    double drawMs = 0.0;
+    for (auto _ : state) {
+        request.scene.camera = scene::orbit(request.scene.camera, 36.0);
+        const auto drawn = stage.draw(request);
+        if (!drawn) return state.SkipWithError("a picture never came");
+        drawMs += drawn->uploadMs + drawn->drawMs;
+    }
+    state.counters["draw_ms"] = drawMs / static_cast<double>(state.iterations());
+    state.counters["Mray/s"] =
+        benchmark::Counter(1e-6 * side * side, benchmark::Counter::kIsIterationInvariantRate);
+}
+
+void recovery(benchmark::State& state, bool spare) {
+    Stage stage{spare};
+    if (!stage.error().empty()) return state.SkipWithError(stage.error().c_str());
+    const auto request = stage.request("demo:mesh", scene::RayModel::kSurface, 256);
+    const auto before = stage.draw(request);
+    for (auto _ : state) {
+        while (spare && !stage.service().status().spareReady) std::this_thread::yield();
+        const auto start = Clock::now();
+        ::kill(stage.service().status().workerPid, SIGKILL);
+        const auto after = stage.wait();
+        const auto took = Clock::now() - start;
+        if (!before || !after || after->picture->rgba8 != before->picture->rgba8) {
+            return state.SkipWithError("the next picture is not the one before");
+        }
+        state.SetIterationTime(std::chrono::duration<double>(took).count());
+    }
+}
+
+void registerAll() {
+    using scene::RayModel;
+    struct Row {
+        const char* name;
+        const char* data;
+        RayModel model;
+    };
+    for (const Row& row : {Row{"frame/mesh/surface", "demo:mesh", RayModel::kSurface},
+                           Row{"frame/mesh/mip", "demo:mesh", RayModel::kMip},
+                           Row{"frame/mesh/volume", "demo:mesh", RayModel::kVolume},
+                           Row{"frame/volume/mip", "demo:volume", RayModel::kMip},
+                           Row{"frame/volume/volume", "demo:volume", RayModel::kVolume}}) {
+        benchmark::RegisterBenchmark(
+            row.name, [row](benchmark::State& state) { frame(state, row.data, row.model); })
+            ->Arg(512)
+            ->Arg(1024)
+            ->UseRealTime()
+            ->Iterations(20)
+            ->Unit(benchmark::kMillisecond);
+    }
+    for (const bool spare : {true, false}) {
+        benchmark::RegisterBenchmark(spare ? "recovery/sigkill/spare" : "recovery/sigkill/no_spare",
+                                     [spare](benchmark::State& state) { recovery(state, spare); })
+            ->UseManualTime()
+            ->Iterations(10)
+            ->Unit(benchmark::kMillisecond);
+    }
+}
+
+}  // namespace
+}  // namespace volcast::bench
+
+int main(int argc, char** argv) {
+    volcast::bench::registerAll();
+    benchmark::Initialize(&argc, argv);
+    if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
+    benchmark::RunSpecifiedBenchmarks();
+    benchmark::Shutdown();
+    return 0;
+}

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "server/workers/child_process.h"
+
+namespace volcast::test {
+
+/// A folder of one test's own.
+class Folder {
+public:
+    Folder() {
+        std::string path = std::filesystem::temp_directory_path() / "volcast-test-XXXXXX";
+        EXPECT_NE(::mkdtemp(path.data()), nullptr);
+        path_ = path;
+    }
+    Folder(const Folder&) = delete;
+    Folder& operator=(const Folder&) = delete;
+    Folder(Folder&&) = delete;
+    Folder& operator=(Folder&&) = delete;
+    ~Folder() { std::filesystem::remove_all(path_); }
+
+    [[nodiscard]] std::string file(const std::string& name) const { return path_ / name; }
+    [[nodiscard]] std::string write(const std::string& name, const std::string& text) const {
+        std::ofstream{path_ / name} << text;
+        return file(name);
+    }
+
+private:
+    std::filesystem::path path_;
+};
+
+inline std::string contentOf(const std::string& path) {
+    std::ifstream stream{path, std::ios::binary};
+    return {std::istreambuf_iterator<char>{stream}, {}};
+}
+
+struct Outcome {
+    int exitCode = -1;
+    std::string out, err;
+};
+
+/// Runs the real `volcast` to its end.
+inline Outcome runVolcast(const std::vector<std::string>& arguments,
+                          const std::vector<std::string>& environment = {}) {
+    const Folder folder;
+    workers::SpawnDesc desc;
+    desc.program = "/bin/sh";
+    // The words travel as arguments, so that no shell looks at them.
+    desc.arguments = {"-c",
+                      "out=$1; err=$2; shift 2; exec \"$@\" >\"$out\" 2>\"$err\"",
+                      "sh",
+                      folder.file("out"),
+                      folder.file("err"),
+                      workers::besideThisProgram("volcast")};
+    desc.arguments.insert(desc.arguments.end(), arguments.begin(), arguments.end());
+    desc.environment = environment;
+    desc.environment.push_back("TMPDIR=" + std::filesystem::temp_directory_path().string());
+    for (std::string& variable : workers::inheritedEnvironment({"ASAN_", "UBSAN_", "HOME="})) {
+        desc.environment.push_back(std::move(variable));
+    }
+    auto child = workers::ChildProcess::spawn(desc);
+    EXPECT_TRUE(child.has_value());
+    const workers::ExitStatus status = child->reap();
+    EXPECT_FALSE(status.signalled) << status.text();
+    return {.exitCode = status.value,
+            .out = contentOf(folder.file("out")),
+            .err = contentOf(folder.file("err"))};
+}
+
+}  // namespace volcast::test

@@ -1,0 +1,211 @@
+#include <algorithm>
+#include <cstring>
+
+#include "tests/e2e/commands/program.h"
+
+namespace volcast::test {
+namespace {
+
+std::vector<float> floatsOf(const std::string& path) {
+    const std::string bytes = contentOf(path);
+    std::vector<float> values(bytes.size() / sizeof(float));
+    std::memcpy(values.data(), bytes.data(), values.size() * sizeof(float));
+    return values;
+}
+
+Outcome render(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "render");
+    return runVolcast(arguments);
+}
+
+constexpr const char* kCamera =
+    R"({"eye": [0, 0, 9], "center": [0, 0, 0], "up": [0, 1, 0], "fovy": 30, "near": 1, "far": 99})";
+
+TEST(RenderCommand, WritesAPngAndFloatsOfTheSizeAskedFor) {
+    const Folder folder;
+    const Outcome run = render({"demo:volume", "--size", "60", "40", "--png", folder.file("a.png"),
+                                "--raw", folder.file("a.f32")});
+    ASSERT_EQ(run.exitCode, 0) << run.err;
+    const std::string png = contentOf(folder.file("a.png"));
+    ASSERT_GT(png.size(), 24U);
+    EXPECT_EQ(png.substr(1, 3), "PNG");
+    EXPECT_EQ(static_cast<unsigned char>(png[19]), 60);
+    EXPECT_EQ(static_cast<unsigned char>(png[23]), 40);
+    const std::vector<float> raw = floatsOf(folder.file("a.f32"));
+    ASSERT_EQ(raw.size(), 60U * 40U * 4U);
+    float most = 0.0F;
+    for (std::size_t i = 3; i < raw.size(); i += 4) most = std::max(most, raw[i]);
+    EXPECT_GT(most, 0.01F);
+    EXPECT_LE(most, 1.0F);
+    EXPECT_EQ(raw[3], 0.0F);  // The corner shows the transparent background.
+}
+
+TEST(RenderCommand, UsesTheTransferFunctionOfTheFile) {
+    const Folder folder;
+    const std::string map = folder.write("red.tf", "# only red\n-1e30 1 0 0 5\n1e30 1 0 0 5\n");
+    const Outcome run =
+        render({"demo:mesh", "--size", "40", "40", "--tf", map, "--raw", folder.file("a.f32")});
+    ASSERT_EQ(run.exitCode, 0) << run.err;
+    const std::vector<float> raw = floatsOf(folder.file("a.f32"));
+    for (std::size_t i = 0; i < raw.size(); i += 4) {
+        EXPECT_NEAR(raw[i], raw[i + 3], 1e-5F);  // Premultiplied red is alpha.
+        EXPECT_EQ(raw[i + 1], 0.0F);
+        EXPECT_EQ(raw[i + 2], 0.0F);
+    }
+}
+
+TEST(RenderCommand, FramesPrintOneJsonLineWithTheKeysOfTheOtherPrograms) {
+    const Outcome run = render({"demo:mesh", "--size", "32", "32", "--frames", "3"});
+    ASSERT_EQ(run.exitCode, 0) << run.err;
+    EXPECT_EQ(std::count(run.out.begin(), run.out.end(), '\n'), 1);
+    for (const char* key :
+         {"median_ms", "min_ms", "max_ms", "cpu_ms", "first_ms", "peak_mb", "size", "model", "data",
+          "readback_ms", "load_ms", "gl", "cells", "plan"}) {
+        EXPECT_NE(run.out.find(std::string{'"'}.append(key).append("\":")), std::string::npos)
+            << key;
+    }
+    EXPECT_NE(run.out.find(R"("size":[32,32])"), std::string::npos) << run.out;
+}
+
+TEST(RenderCommand, ExplainSaysWhatIsOnAndOffAndWhy) {
+    const Outcome run = render({"demo:mesh", "--size", "16", "16", "--explain"});
+    ASSERT_EQ(run.exitCode, 0) << run.err;
+    EXPECT_NE(run.out.find("layer main: mesh walk"), std::string::npos) << run.out;
+    EXPECT_NE(run.out.find("  off "), std::string::npos) << run.out;
+}
+
+TEST(RenderCommand, DrawsASceneDocument) {
+    const Folder folder;
+    const std::string scene = folder.write("scene.json", R"({
+        "camera": {"eye": {"x": 0, "y": 0, "z": 9}, "center": {}, "up": {"y": 1}},
+        "layers": [{"id": "a", "dataset": "anything", "model": "RAY_MODEL_SURFACE"}],
+        "background": {"r": 0, "g": 1, "b": 0}})");
+    const Outcome run =
+        render({"demo:mesh", "--size", "8", "8", "--scene", scene, "--png", folder.file("a.png")});
+    EXPECT_EQ(run.exitCode, 0) << run.err;
+    EXPECT_GT(contentOf(folder.file("a.png")).size(), 60U);
+    const std::string broken = folder.write("broken.json", R"({"kamera": 1})");
+    const Outcome refused = render({"demo:mesh", "--scene", broken});
+    EXPECT_EQ(refused.exitCode, 1);
+    EXPECT_NE(refused.err.find("broken.json"), std::string::npos) << refused.err;
+    EXPECT_NE(refused.err.find("kamera"), std::string::npos) << refused.err;
+}
+
+TEST(RenderCommand, WrongOptionsAreUsageErrors) {
+    for (const std::vector<std::string>& words :
+         std::vector<std::vector<std::string>>{{"demo:mesh", "--size", "0", "10"},
+                                               {"demo:mesh", "--size", "10", "-3"},
+                                               {"demo:mesh", "--size", "100000", "10"},
+                                               {"demo:mesh", "--size", "10"},
+                                               {"demo:mesh", "--model", "hologram"},
+                                               {"demo:mesh", "--step", "nan"},
+                                               {"demo:mesh", "--step", "-1"},
+                                               {"demo:mesh", "--background", "0", "nan", "0"},
+                                               {"demo:mesh", "--orbit", "inf"},
+                                               {"demo:mesh", "--frames", "-1"},
+                                               {"demo:mesh", "--no-such-option"},
+                                               {}}) {
+        const Outcome run = render(words);
+        EXPECT_EQ(run.exitCode, 2) << run.err;
+        EXPECT_FALSE(run.err.empty());
+    }
+}
+
+TEST(RenderCommand, NamesTheFieldsThereAre) {
+    const Outcome run = render({"demo:mesh", "--field", "temperature"});
+    EXPECT_EQ(run.exitCode, 1);
+    EXPECT_NE(run.err.find("temperature"), std::string::npos) << run.err;
+    EXPECT_NE(run.err.find("it has "), std::string::npos) << run.err;
+}
+
+TEST(RenderCommand, NamesTheKeyOfABrokenCamera) {
+    const Folder folder;
+    struct Case {
+        const char* json;
+        const char* named;
+    };
+    for (const Case& wrong :
+         {Case{R"({"eye": [0, 0, 1]})", "center"},
+          Case{R"({"eye": [0, 0, "x"], "center": [0,0,0], "up": [0,1,0]})", "eye"},
+          Case{R"({"eye": [0, 0], "center": [0,0,0], "up": [0,1,0]})", "eye"},
+          Case{R"({"eye": [0,0,NaN], "center": [0,0,0], "up": [0,1,0]})", "JSON"},
+          Case{R"({"eye": [0,0,1], "center": [0,0,1], "up": [0,1,0]})", "eye"},
+          Case{R"({"eye": [0,0,1], "center": [0,0,0], "up": [0,0,1]})", "up"},
+          Case{R"({"eye": [0,0,1], "center": [0,0,0], "up": [0,1,0],)"
+               R"( "fovy": 180})",
+               "fovy"},
+          Case{R"({"eye": [0,0,1], "center": [0,0,0], "up": [0,1,0],)"
+               R"( "zoom": 2})",
+               "zoom"},
+          Case{R"({"eye": )", "JSON"}, Case{"[]", "object"}}) {
+        const std::string camera = folder.write("camera.json", wrong.json);
+        const Outcome run = render({"demo:volume", "--camera", camera});
+        EXPECT_EQ(run.exitCode, 1) << wrong.json;
+        EXPECT_NE(run.err.find("camera.json"), std::string::npos) << run.err;
+        EXPECT_NE(run.err.find(wrong.named), std::string::npos) << run.err;
+    }
+}
+
+TEST(RenderCommand, NamesFilesThatCannotBeReadOrWritten) {
+    const Folder folder;
+    const std::string camera = folder.write("camera.json", kCamera);
+    const std::string map = folder.write("broken.tf", "0 1 1 1 1\n0.5 red\n");
+    struct Case {
+        std::vector<std::string> words;
+        std::string named;
+    };
+    for (const Case& wrong :
+         {Case{{"/nonexistent/data.vtu"}, "/nonexistent/data.vtu"},
+          Case{{"demo:volume", "--camera", "/nonexistent/c.json"}, "/nonexistent/c.json"},
+          Case{{"demo:volume", "--camera", camera, "--tf", "/nonexistent/a.tf"},
+               "/nonexistent/a.tf"},
+          Case{{"demo:volume", "--tf", map}, "broken.tf"},
+          Case{{"demo:volume", "--scene", "/nonexistent/s.json"}, "/nonexistent/s.json"},
+          Case{{"demo:volume", "--png", "/nonexistent/a.png"}, "/nonexistent/a.png"},
+          Case{{"demo:volume", "--raw", "/proc/a.f32"}, "/proc/a.f32"},
+          Case{{"demo:volume", "--png", "/tmp"}, "/tmp"},
+          Case{{"demo:volume", "--gpu", "77"}, "77"},
+          Case{{"demo:volume", "--model", "surface"}, "surface"}}) {
+        const Outcome run = render(wrong.words);
+        EXPECT_EQ(run.exitCode, 1) << wrong.named;
+        EXPECT_NE(run.err.find(wrong.named), std::string::npos) << run.err;
+    }
+}
+
+TEST(RenderCommand, SaysThatThereIsNoEgl) {
+    const Outcome run =
+        runVolcast({"render", "demo:volume"}, {"__EGL_VENDOR_LIBRARY_DIRS=/nonexistent"});
+    EXPECT_EQ(run.exitCode, 1);
+    EXPECT_NE(run.err.find("EGL"), std::string::npos) << run.err;
+}
+
+TEST(DoctorCommand, FindsEverythingThatTheServiceNeeds) {
+    const Outcome run = runVolcast({"doctor", "--json"});
+    EXPECT_EQ(run.exitCode, 0) << run.out;
+    EXPECT_NE(run.out.find(R"("can_serve":true)"), std::string::npos);
+    for (const char* group : {"graphics", "codecs", "import", "sandbox"}) {
+        EXPECT_NE(run.out.find(std::string{R"("group":")"}.append(group)), std::string::npos)
+            << group;
+    }
+}
+
+TEST(DoctorCommand, SaysWhatMissingGraphicsCost) {
+    const Outcome run = runVolcast({"doctor"}, {"__EGL_VENDOR_LIBRARY_DIRS=/nonexistent"});
+    EXPECT_EQ(run.exitCode, 1);
+    EXPECT_NE(run.out.find("there are no pictures"), std::string::npos) << run.out;
+    EXPECT_NE(run.out.find("cannot serve"), std::string::npos) << run.out;
+}
+
+TEST(VolcastProgram, HasHelpAndAVersion) {
+    EXPECT_EQ(runVolcast({"--help"}).exitCode, 0);
+    EXPECT_TRUE(runVolcast({"--version"}).out.starts_with("volcast "));
+    for (const char* command : {"serve", "render", "import", "doctor"}) {
+        const Outcome run = runVolcast({command, "--help"});
+        EXPECT_EQ(run.exitCode, 0) << command;
+        EXPECT_GT(run.out.size(), 100U) << command;
+    }
+    EXPECT_EQ(runVolcast({}).exitCode, 2);
+}
+
+}  // namespace
+}  // namespace volcast::test
