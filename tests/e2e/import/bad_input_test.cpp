@@ -2,6 +2,7 @@
 #include <fstream>
 #include <sys/stat.h>
 
+#include "renderer/base/sandbox.h"
 #include "tests/e2e/import/import_fixture.h"
 
 namespace volcast::test {
@@ -261,6 +262,30 @@ TEST_F(BadInput, AnImportPastItsMemoryIsEnded) {
                   "memory");
     request.tetgenSwitches = "pqa0.0000001";  // Some 1e7 cells.
     expectRefused(folder.write("a.off", cubeOff()), kLimit, "memory");
+}
+
+// The sandbox leaves the dataset's own folder alone readable.
+TEST_F(BadInput, ALinkOutOfTheFolderIsNotFollowed) {
+    if (base::sandboxFeatures().landlockAbi == 0) GTEST_SKIP() << "this kernel has no Landlock";
+    const TempFolder elsewhere;
+    elsewhere.write("secret.raw", std::string(8, 's'));
+    elsewhere.write("cube.ele", cubeEle());
+    std::filesystem::create_symlink(elsewhere.path("secret.raw"), folder.path("secret.raw"));
+    std::filesystem::create_symlink(elsewhere.path("cube.ele"), folder.path("cube.ele"));
+    expectRefused(folder.write("a.mhd", mhd("2 2 2", "MET_UCHAR", "secret.raw")), ErrorCode::kIo,
+                  "Permission denied");
+    const auto cells = import(folder.write("cube.node", cubeNode()));
+    ASSERT_FALSE(cells.has_value());
+    EXPECT_EQ(cells.error().code, ErrorCode::kIo) << cells.error().message;
+}
+
+TEST_F(BadInput, ALinkToADatasetIsFollowed) {
+    const TempFolder elsewhere;
+    elsewhere.write("good.raw", std::string(8, 's'));
+    elsewhere.write("good.mhd", mhd("2 2 2", "MET_UCHAR", "good.raw"));
+    std::filesystem::create_symlink(elsewhere.path("good.mhd"), folder.path("good.mhd"));
+    std::filesystem::create_symlink(elsewhere.path("good.raw"), folder.path("good.raw"));
+    EXPECT_EQ(volume(folder.path("good.mhd")).size, glm::ivec3(2));
 }
 
 TEST_F(BadInput, AMissingImporterIsNamed) {
