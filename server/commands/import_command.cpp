@@ -58,7 +58,7 @@ json::object asJson(const workers::ImportedDataset& imported) {
         result["cells_without_volume"] = s.cellsWithoutVolume;
         result["cells_inverted"] = s.cellsInverted;
     } else {
-        result["size"] = numbers(s.voxels);
+        result["size"] = json::array{s.voxels.x, s.voxels.y, s.voxels.z};
         result["spacing"] = numbers(s.spacing);
         result["voxel_type"] = text(s.voxelType);
     }
@@ -67,7 +67,7 @@ json::object asJson(const workers::ImportedDataset& imported) {
     for (const data::FieldSummary& field : s.fields) {
         fields.push_back({{"name", field.name},
                           {"unit", field.unit},
-                          {"association", text(field.association)},
+                          {"association", s.isMesh ? text(field.association) : "voxel"},
                           {"min", field.range.min},
                           {"max", field.range.max},
                           {"steps", field.steps}});
@@ -169,7 +169,7 @@ void addImportCommand(CLI::App& app, int& exitCode) {
     auto options = std::make_shared<ImportOptions>();
     CLI::App* command =
         app.add_subcommand("import", "Inspects a dataset: what would be drawn of it");
-    command->footer("Exit code: 0 read, 1 refused, above 100 for wrong options.");
+    command->footer("Exit code: 0 read, 1 refused, 2 wrong options.");
     command
         ->add_option("dataset", options->request.path,
                      "A file, a folder of pictures, demo:mesh or demo:volume")
