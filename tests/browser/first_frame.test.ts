@@ -54,7 +54,6 @@ describe("first frame", () => {
   it("comes back after a reload with the camera where it was", async () => {
     await client.after(() => client.drag(120, 40));
     const before = hashOf(await client.pixels());
-    await client.page.waitForTimeout(400); // The view is kept a moment after the last change.
     await client.page.reload();
     await client.settled();
     expect(hashOf(await client.pixels())).toBe(before);

@@ -7,6 +7,7 @@ import {
   adoptScene,
   currentDocument,
   redo,
+  refitCamera,
   resetCamera,
   restoreDocument,
   undo,
@@ -121,7 +122,10 @@ onEdit(
   () => session.mark("scene"),
 );
 onEdit(state.orbit, () => session.mark("camera"));
-onEdit(state.viewport, () => session.resized());
+onEdit(state.viewport, () => {
+  session.resized();
+  refitCamera(state);
+});
 
 const port: AppPort = {
   openDataset(id) {

@@ -72,7 +72,11 @@ export class Server {
       child.once("error", (error) => fail(String(error)));
       child.once("exit", (code) => fail(`the server ended with ${code}`));
     });
-    return new Server(child, folder, url);
+    const server = new Server(child, folder, url);
+    const page = await (await fetch(url)).text();
+    if (page.includes('id="app"')) return server;
+    await server.stop();
+    throw new Error("the server has no web client to hand out: npm run build in web_client");
   }
 
   /** Process ids of its GL workers, the spare one included. */

@@ -117,7 +117,14 @@ export function resetCamera(state: AppState): void {
   if (!home) return;
   const { bounds } = state;
   const aspect = aspectOf(state);
-  state.orbit.value = bounds.value && aspect < 1 ? fitted(home, bounds.value, aspect) : home;
+  const orbit = bounds.value && aspect < 1 ? fitted(home, bounds.value, aspect) : home;
+  state.resting.orbit = orbit;
+  state.orbit.value = orbit;
+}
+
+/** After a change of the viewport: a camera that shows everything goes on showing everything. */
+export function refitCamera(state: AppState): void {
+  if (state.orbit.value && state.orbit.value === state.resting.orbit) resetCamera(state);
 }
 
 /** Takes over a scene that the server made. */

@@ -93,6 +93,8 @@ export function createAppState() {
     notices: signal<readonly Notice[]>([]),
     framesPerSecond: signal(0),
     latency: signal<{ readonly p50: number; readonly p95: number } | undefined>(undefined),
+    /** The camera that shows everything in this viewport, as long as nobody moved it. */
+    resting: { orbit: undefined as Orbit | undefined },
     /** When the input that is being handled happened; a plain value, read once. */
     input: { at: undefined as number | undefined },
   };
