@@ -200,11 +200,11 @@ void Catalogue::importOne(const std::string& id) {
     const std::lock_guard lock{mutex_};
     Entry& entry = entries_.at(id);
     if (imported) {
-        spdlog::info("event=imported dataset=\"{}\" format=\"{}\" ms={:.0f} peak_mb={:.0f}", id,
+        spdlog::info(R"(event=imported dataset="{}" format="{}" ms={:.0f} peak_mb={:.0f})", id,
                      imported->format, imported->ms, imported->peakMb);
         finished(entry, std::move(*imported));
     } else {
-        spdlog::warn("event=import_failed dataset=\"{}\" code={} error=\"{}\"", id,
+        spdlog::warn(R"(event=import_failed dataset="{}" code={} error="{}")", id,
                      name(imported.error().code), imported.error().message);
         entry.info.set_state(v1::DATASET_STATE_FAILED);
         entry.info.set_error(imported.error().message);

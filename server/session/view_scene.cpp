@@ -90,6 +90,7 @@ Result<SceneChange> ViewScene::accept(Waiting next) {
     if (!scene) return scene.error();
     scene_ = std::move(*scene);
     waiting_.reset();
+    seenVersion_ = dataVersion();
     return SceneChange::kDraw;
 }
 
@@ -160,9 +161,12 @@ Result<SceneChange> ViewScene::datasetChanged(const std::string& id) {
         waiting_.reset();
         if (!scene) return scene.error();
         scene_ = std::move(*scene);
+        seenVersion_ = dataVersion();
         return SceneChange::kDraw;
     }
     if (!scene_ || std::ranges::count(datasetsOf(*scene_), id) == 0) return SceneChange::kNone;
+    if (dataVersion() == seenVersion_) return SceneChange::kNone;  // News of what was drawn.
+    seenVersion_ = dataVersion();
     const auto valid = scene::validate(*scene_, catalogue_.summaries(datasetsOf(*scene_)));
     if (!valid) return within("scene", valid.error());
     return SceneChange::kDraw;

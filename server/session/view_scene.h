@@ -69,6 +69,7 @@ private:
     std::optional<Waiting> waiting_;
     scene::PictureSize size_{512, 512};
     std::uint64_t inputSeq_ = 0;
+    std::uint64_t seenVersion_ = 0;  ///< dataVersion() when scene_ last changed or was drawn anew.
 };
 
 }  // namespace volcast::session

@@ -1,0 +1,193 @@
+// A whole session without a socket: the renderer is a script, everything else is real.
+#include "server/session/session.h"
+
+#include <condition_variable>
+#include <mutex>
+
+#include <gtest/gtest.h>
+
+#include "protocol/framing.h"
+#include "renderer/base/memfd.h"
+
+namespace volcast::session {
+namespace {
+
+/// Writes down what is asked of it; the test draws.
+class ScriptedRender final : public workers::RenderService {
+public:
+    void addDataset(const std::string&, base::FileDescriptor) override {}
+    void removeDataset(const std::string&) override {}
+    void submit(workers::RenderRequest request) override { requests.push_back(std::move(request)); }
+    void dropView(std::uint64_t view) override { dropped.push_back(view); }
+    [[nodiscard]] workers::RenderStatus status() const override { return {}; }
+    std::vector<workers::RenderRequest> requests;
+    std::vector<std::uint64_t> dropped;
+};
+
+/// A cube of voxels with one channel, without its bytes.
+Result<workers::ImportedDataset> importCube(
+    const workers::ImportRequest&, const workers::ImportSettings&,
+    const std::function<void(const std::string&, double)>&) {
+    workers::ImportedDataset imported;
+    imported.packed = *base::createMemfd("cube", 1);
+    imported.summary.isMesh = false;
+    imported.summary.bounds = {.min = glm::dvec3{0.0}, .max = glm::dvec3{1.0}};
+    imported.summary.voxels = glm::ivec3{4};
+    imported.summary.spacing = glm::dvec3{0.25};
+    data::FieldSummary field;
+    field.name = "f";
+    field.range = {.min = 0.0F, .max = 1.0F};
+    imported.summary.fields.push_back(field);
+    return imported;
+}
+
+class SessionTest : public testing::Test {
+protected:
+    void SetUp() override {
+        CatalogueDesc desc;
+        desc.importer = importCube;
+        catalogue = std::move(*Catalogue::create(std::move(desc), render));
+        events = router.events();
+        shared = std::make_unique<Shared>(Shared{.render = render,
+                                                 .catalogue = *catalogue,
+                                                 .router = router,
+                                                 .encoders = encoders,
+                                                 .limits = {},
+                                                 .server = "test",
+                                                 .sourceUrl = {}});
+        session = Session::create(*shared, 1,
+                                  {.post =
+                                       [this](std::function<void()> act) {
+                                           const std::lock_guard lock{mutex};
+                                           posted.push_back(std::move(act));
+                                           came.notify_all();
+                                       },
+                                   .wake = [] {}});
+    }
+    void TearDown() override {
+        session.reset();
+        catalogue.reset();
+    }
+    void say(const std::string& json) {
+        session->receive(std::as_bytes(std::span{json}), Form::kJson, Clock::now());
+    }
+    /// Runs what other threads posted until `text` is in what the session says.
+    std::string waitFor(const std::string& text) {
+        const auto until = Clock::now() + std::chrono::seconds{30};
+        while (Clock::now() < until) {
+            while (const auto out = session->next(Clock::now())) {
+                const std::string said{reinterpret_cast<const char*>(out->head.data()),
+                                       out->head.size()};
+                if (said.find(text) != std::string::npos) return said;
+            }
+            session->tick(Clock::now());
+            std::unique_lock lock{mutex};
+            came.wait_for(lock, std::chrono::milliseconds{20}, [this] { return !posted.empty(); });
+            std::deque<std::function<void()>> now;
+            now.swap(posted);
+            lock.unlock();
+            for (auto& act : now) act();
+        }
+        return {};
+    }
+    void drawLast() {
+        const workers::RenderRequest& request = render.requests.back();
+        auto picture = std::make_shared<workers::Picture>();
+        picture->size = request.size;
+        picture->rgba8.resize(static_cast<std::size_t>(request.size.x) * request.size.y * 4);
+        workers::RenderedFrame frame;
+        frame.view = request.view;
+        frame.tag = request.tag;
+        frame.picture = picture;
+        frame.drawn = true;
+        events.rendered(frame);
+    }
+    void openView() {
+        say(R"({"hello":{"major":1}})");
+        say(R"({"openView":{"view":4,"viewport":{"width":8,"height":6},"inputSeq":"1"}})");
+        ASSERT_NE(waitFor("viewOpened"), "");
+        ASSERT_EQ(render.requests.size(), 1U);
+    }
+
+    ScriptedRender render;
+    ViewRouter router;
+    EncodePool encoders{1};
+    workers::RenderEvents events;
+    std::unique_ptr<Catalogue> catalogue;
+    std::unique_ptr<Shared> shared;
+    std::mutex mutex;
+    std::condition_variable came;
+    std::deque<std::function<void()>> posted;
+    std::shared_ptr<Session> session;
+};
+
+TEST_F(SessionTest, ADefaultViewIsOpenedDrawnAndMadeExact) {
+    openView();
+    EXPECT_EQ(render.requests[0].size, glm::ivec2(8, 6));
+    EXPECT_EQ(render.requests[0].scene.layers.at(0).field, "f");
+    drawLast();
+    EXPECT_NE(waitFor(R"("codec":"CODEC_JPEG")"), "");
+    EXPECT_NE(waitFor(R"("final":true)"), "");
+    EXPECT_EQ(render.requests.size(), 1U);  // The lossless picture was not drawn again.
+}
+
+TEST_F(SessionTest, ALossIsToldAndTheNextPictureEndsIt) {
+    openView();
+    drawLast();
+    ASSERT_NE(waitFor("CODEC_JPEG"), "");
+    events.recovering({render.requests[0].view});
+    ASSERT_NE(waitFor("VIEW_STATE_RECOVERING"), "");
+    drawLast();
+    EXPECT_NE(waitFor("VIEW_STATE_ACTIVE"), "");
+    EXPECT_NE(waitFor("CODEC_JPEG"), "");
+}
+
+TEST_F(SessionTest, AFailedDrawIsToldAndTheNextInputIsDrawn) {
+    openView();
+    events.failed(render.requests[0].view, render.requests[0].tag,
+                  fail(ErrorCode::kOutOfGpuMemory, "no memory for 8 x 6"));
+    EXPECT_NE(waitFor("ERROR_CODE_OUT_OF_GPU_MEMORY"), "");
+    EXPECT_NE(waitFor("VIEW_STATE_FAILED"), "");
+    say(R"({"update":{"view":4,"inputSeq":"2","viewport":{"width":9,"height":9}}})");
+    ASSERT_EQ(render.requests.size(), 2U);
+    drawLast();
+    EXPECT_NE(waitFor("VIEW_STATE_ACTIVE"), "");
+}
+
+TEST_F(SessionTest, ANewViewOfAnOldNumberHearsNothingOfTheOldOne) {
+    openView();
+    const workers::RenderRequest old = render.requests.back();
+    say(R"({"closeView":{"view":4}})");
+    EXPECT_EQ(render.dropped, std::vector<std::uint64_t>{old.view});
+    say(R"({"openView":{"view":4,"viewport":{"width":5,"height":5},"inputSeq":"1"}})");
+    ASSERT_EQ(render.requests.size(), 2U);
+    EXPECT_NE(render.requests[1].view, old.view);
+    events.failed(old.view, old.tag, fail(ErrorCode::kIo, "late"));
+    drawLast();
+    const std::string said = waitFor("CODEC_JPEG");
+    EXPECT_NE(said.find(R"("width":5)"), std::string::npos) << said;
+}
+
+TEST_F(SessionTest, RepliesThatNobodyReadsAreBounded) {
+    say(R"({"hello":{"major":1}})");
+    for (int i = 0; i < 2000 && !session->closing(); ++i) say(R"({"ping":{"token":"1"}})");
+    ASSERT_TRUE(session->closing().has_value());
+    EXPECT_EQ(session->closing()->code, 1008);
+}
+
+TEST_F(SessionTest, ASessionThatEndsDropsItsViews) {
+    openView();
+    const std::uint64_t view = render.requests[0].view;
+    session.reset();
+    EXPECT_EQ(render.dropped, std::vector<std::uint64_t>{view});
+    drawLast();  // Goes nowhere.
+}
+
+TEST_F(SessionTest, WithoutAHelloTheConnectionEnds) {
+    session->tick(Clock::now() + Session::kHelloWithin + std::chrono::seconds{1});
+    ASSERT_TRUE(session->closing().has_value());
+    EXPECT_EQ(session->closing()->code, 1008);
+}
+
+}  // namespace
+}  // namespace volcast::session
