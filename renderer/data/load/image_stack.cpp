@@ -127,7 +127,7 @@ struct Stack {
 };
 
 /// The voxel type that keeps `type`, or float for the others.
-std::pair<VoxelType, OIIO::TypeDesc> kept(OIIO::TypeDesc type) {
+std::pair<VoxelType, OIIO::TypeDesc> kept(const OIIO::TypeDesc& type) {
     if (type == OIIO::TypeDesc::UINT8) return {VoxelType::kU8, type};
     if (type == OIIO::TypeDesc::UINT16) return {VoxelType::kU16, type};
     if (type == OIIO::TypeDesc::INT16) return {VoxelType::kI16, type};

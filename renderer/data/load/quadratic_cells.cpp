@@ -52,7 +52,7 @@ constexpr std::array<std::array<int, 3>, 4> kTrianglePieces{
 /// Points of a hexahedron at (x, y, z) in {0, 1, 2}: index x + 3 y + 9 z.
 constexpr std::array<int, 27> kHexahedronGrid{0,  8,  1,  11, 24, 9,  3, 10, 2,  16, 22, 17, 20, 26,
                                               21, 19, 23, 18, 4,  12, 5, 15, 25, 13, 7,  14, 6};
-constexpr std::array<int, 8> kHexahedronSteps{0, 1, 4, 3, 9, 10, 13, 12};
+constexpr std::array<std::size_t, 8> kHexahedronSteps{0, 1, 4, 3, 9, 10, 13, 12};
 
 struct Weighted {
     std::int64_t point;
@@ -126,11 +126,10 @@ private:
     }
 
     void cutHexahedron() {
-        for (const int first : {0, 1, 3, 4, 9, 10, 12, 13}) {
+        for (const std::size_t first : {0U, 1U, 3U, 4U, 9U, 10U, 12U, 13U}) {
             std::array<int, 8> local{};
             for (std::size_t i = 0; i < local.size(); ++i) {
-                local.at(i) =
-                    kHexahedronGrid.at(static_cast<std::size_t>(first + kHexahedronSteps.at(i)));
+                local.at(i) = kHexahedronGrid.at(first + kHexahedronSteps.at(i));
             }
             piece(3, local);
         }

@@ -64,6 +64,7 @@ int spawnPython(const std::string& program, const std::string& path, int records
                                    std::to_string(kRecordsFd),
                                    std::to_string(kFilterFd)};
     std::vector<char*> arguments;
+    arguments.reserve(words.size() + 1);
     for (std::string& word : words) arguments.push_back(word.data());
     arguments.push_back(nullptr);
     auto* environment = const_cast<char**>(kEnvironment.data());

@@ -155,7 +155,7 @@ Result<PlyHeader> readPlyHeader(const std::string& path, std::string_view bytes)
     const std::size_t end = bytes.find(kEnd);
     if (!bytes.starts_with("ply") || end == std::string_view::npos) {
         return fail(ErrorCode::kInvalidArgument,
-                    path + ": is no PLY file (it lacks \"ply\" or \"end_header\")");
+                    path + ": is no PLY file (it lacks ply or end_header)");
     }
     PlyHeader header;
     header.bytes =

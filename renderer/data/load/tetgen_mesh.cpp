@@ -116,9 +116,9 @@ Result<Loaded> readTetgenMesh(const Request& request, const Progress& progress) 
     if (nodes->points.empty()) return nodeLines.error("has no points");
     const std::string elePath = withSuffix(request.path, ".ele");
     if (!exists(elePath)) {
-        Surface cloud{.points = std::move(nodes->points),
-                      .attributes = std::move(nodes->attributes)};
-        auto mesh = delaunay(std::move(cloud));
+        const Surface cloud{.points = std::move(nodes->points),
+                            .attributes = std::move(nodes->attributes)};
+        auto mesh = delaunay(cloud);
         if (!mesh) {
             return fail(mesh.error().code, request.path + ": " + mesh.error().message);
         }
