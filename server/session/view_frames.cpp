@@ -9,7 +9,9 @@ namespace volcast::session {
 
 namespace {
 
-constexpr std::size_t kAskedKept = 4;
+/// Requests whose answer may still come. When so many were overtaken while one is drawn, newer
+/// states wait here instead: forgetting the one that is drawn would throw its picture away.
+constexpr std::size_t kMaxAsked = 256;
 
 double msBetween(TimePoint from, TimePoint to) {
     return std::chrono::duration<double, std::milli>(to - from).count();
@@ -53,7 +55,7 @@ std::size_t ViewFrames::committed() const {
 }
 
 std::optional<DrawState> ViewFrames::takeDraw(TimePoint now, std::uint64_t& tag) {
-    if (!wanted_) return std::nullopt;
+    if (!wanted_ || asked_.size() >= kMaxAsked) return std::nullopt;
     const std::size_t ahead = (picture_ ? 1U : 0U) + (drawing_ ? 1U : 0U);
     if (committed() + ahead >= flow_.window(now)) return std::nullopt;
     tag = ++lastTag_;
@@ -62,7 +64,6 @@ std::optional<DrawState> ViewFrames::takeDraw(TimePoint now, std::uint64_t& tag)
                       .dataVersion = wanted_->dataVersion,
                       .inputAt = wanted_->inputAt,
                       .at = now});
-    if (asked_.size() > kAskedKept) asked_.pop_front();
     drawing_ = true;
     std::optional<DrawState> state;
     state.swap(wanted_);
@@ -104,6 +105,7 @@ v1::FrameHeader ViewFrames::headerOf(const workers::RenderedFrame& frame,
 }
 
 bool ViewFrames::failed(std::uint64_t tag) {
+    std::erase_if(asked_, [tag](const Asked& asked) { return asked.tag <= tag; });
     if (tag != lastTag_) return false;
     drawing_ = false;
     return true;

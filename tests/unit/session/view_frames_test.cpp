@@ -52,6 +52,30 @@ protected:
     std::uint64_t tag = 0;
 };
 
+// A client that sends faster than frames are drawn must still see frames.
+TEST_F(ViewFramesTest, ManyInputsDuringOneDrawDoNotLoseItsPicture) {
+    input(1);
+    ASSERT_EQ(draw(), 1U);
+    const std::uint64_t drawn = tag;
+    std::uint64_t newest = 1;
+    for (std::uint64_t seq = 2; seq <= 2000; ++seq) {
+        input(seq);
+        if (const std::uint64_t asked = draw(); asked != 0) newest = asked;
+    }
+    EXPECT_GT(newest, 2U);
+    ASSERT_TRUE(finish(drawn));
+    const auto first = encodeAndSend();
+    ASSERT_TRUE(first.has_value());
+    EXPECT_EQ(first->header.input_seq(), 1U);
+    ack(first->sequence);
+    ASSERT_TRUE(finish(tag));  // The newest that the renderer was asked for.
+    EXPECT_EQ(draw(), 2000U);
+    ASSERT_TRUE(finish(tag));
+    const auto last = encodeAndSend();
+    ASSERT_TRUE(last.has_value());
+    EXPECT_EQ(last->header.input_seq(), 2000U);
+}
+
 TEST_F(ViewFramesTest, TheFirstPictureGoesOutAsJpegAtOnceAndLosslesslyWhenCalm) {
     input(1);
     ASSERT_EQ(draw(), 1U);
