@@ -32,6 +32,10 @@ std::string extension(const std::string& name) {
     return text;
 }
 
+std::string joined(const std::string& folder, const std::string& name) {
+    return (fs::path{folder} / name).string();
+}
+
 bool isImage(const std::string& name) {
     static constexpr std::array kImages{".tif", ".tiff", ".png", ".exr", ".dcm", ".jpg", ".jpeg"};
     return std::ranges::find(kImages, extension(name)) != kImages.end();
@@ -52,7 +56,7 @@ public:
             if (++seen_ > kMaxScanEntries) return;
             const std::string name = at->path().filename().string();
             if (name.empty() || name.front() == '.') continue;
-            const std::string path = relative.empty() ? name : relative + "/" + name;
+            const std::string path = joined(relative, name);
             if (!at->is_symlink(ignored) && at->is_directory(ignored)) {
                 folders.push_back(path);
             } else {
@@ -94,7 +98,7 @@ private:
         for (const File& file : files) {
             if (stack && isImage(file.name)) continue;
             if (!workers::isImportable(file.name)) continue;
-            const std::string id = relative.empty() ? file.name : relative + "/" + file.name;
+            const std::string id = joined(relative, file.name);
             found_.push_back({id, file.name, withCompanions(file, files)});
         }
     }

@@ -96,7 +96,7 @@ void Session::hello(const v1::Hello& message) {
         return end({kPolicyViolation, "no codec in common"});
     }
     greeted_ = true;
-    spdlog::info("event=hello connection={} client=\"{}\" form={}", number_,
+    spdlog::info(R"(event=hello connection={} client="{}" form={})", number_,
                  message.client().substr(0, 80), form_ == Form::kJson ? "json" : "binary");
     welcome();
 }

@@ -36,7 +36,7 @@ void Session::apply(View& view, SceneChange change) {
 void Session::setState(View& view, v1::ViewState state, const std::string& text) {
     if (view.state == state) return;
     view.state = state;
-    spdlog::info("event=view_state connection={} view={} state={} message=\"{}\"", number_,
+    spdlog::info(R"(event=view_state connection={} view={} state={} message="{}")", number_,
                  view.number, v1::ViewState_Name(state), text);
     send(statusMessage(view.number, state, text));
 }
