@@ -66,7 +66,7 @@ bool Supervisor::turn(const std::function<Inbox()>& take) {
     serve(spare_);
     Inbox inbox = take();
     if (inbox.stop) return false;
-    accept(std::move(inbox));
+    accept(inbox);
     checkTimes();
     startWorkers();
     dispatch();
@@ -112,7 +112,7 @@ Clock::time_point Supervisor::nextTime() const {
     return next;
 }
 
-void Supervisor::accept(Inbox inbox) {
+void Supervisor::accept(Inbox& inbox) {
     for (const Inbox::DatasetChange& dataset : inbox.datasets) change(dataset);
     for (const std::uint64_t view : inbox.droppedViews) {
         views_.drop(view);

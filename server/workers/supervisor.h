@@ -56,7 +56,7 @@ private:
     };
 
     void wait();
-    void accept(Inbox inbox);
+    void accept(Inbox& inbox);  ///< Empties it.
     void change(const Inbox::DatasetChange& change);
     void serve(Worker& worker);
     void handle(Worker& worker, const WorkerProcess::Answer& answer);

@@ -1,11 +1,14 @@
 #pragma once
 
+#include <chrono>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <iterator>
 #include <sstream>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -41,6 +44,16 @@ private:
 inline std::string contentOf(const std::string& path) {
     std::ifstream stream{path, std::ios::binary};
     return {std::istreambuf_iterator<char>{stream}, {}};
+}
+
+/// Polls until `predicate` holds; false after a minute.
+inline bool eventually(const std::function<bool()>& predicate) {
+    const auto until = std::chrono::steady_clock::now() + std::chrono::minutes{1};
+    while (!predicate()) {
+        if (std::chrono::steady_clock::now() > until) return false;
+        std::this_thread::sleep_for(std::chrono::milliseconds{2});
+    }
+    return true;
 }
 
 struct Outcome {

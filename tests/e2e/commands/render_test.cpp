@@ -179,6 +179,48 @@ TEST(RenderCommand, SaysThatThereIsNoEgl) {
     EXPECT_NE(run.err.find("EGL"), std::string::npos) << run.err;
 }
 
+/// Children of a process, by /proc.
+std::vector<int> childrenOf(int parent) {
+    std::vector<int> children;
+    for (const auto& entry : std::filesystem::directory_iterator{"/proc"}) {
+        const std::string name = entry.path().filename();
+        if (name.find_first_not_of("0123456789") != std::string::npos) continue;
+        const std::string stat = contentOf(entry.path() / "stat");
+        const std::size_t end = stat.rfind(')');
+        if (end == std::string::npos || end + 4 > stat.size()) continue;
+        if (std::stoi(stat.substr(end + 4)) == parent) children.push_back(std::stoi(name));
+    }
+    return children;
+}
+
+TEST(RenderCommand, TakesItsWorkerAlongWhenItIsKilled) {
+    const Folder cache;
+    workers::SpawnDesc desc;
+    desc.program = workers::besideThisProgram("volcast");
+    desc.arguments = {"render",  "demo:volume", "--size",
+                      "64",      "64",          "--frames",
+                      "1000000", "--cache-dir", cache.file("shaders")};
+    auto volcast = workers::ChildProcess::spawn(desc);
+    ASSERT_TRUE(volcast.has_value());
+    int worker = 0;
+    const auto workerName = [](int pid) {
+        return contentOf("/proc/" + std::to_string(pid) + "/comm");
+    };
+    ASSERT_TRUE(eventually([&] {
+        for (const int child : childrenOf(volcast->pid())) {
+            if (workerName(child) == "volcast-worker\n") worker = child;
+        }
+        return worker != 0;
+    }));
+    volcast->kill();
+    volcast->reap();
+    EXPECT_TRUE(eventually([&] {
+        const std::string stat = contentOf("/proc/" + std::to_string(worker) + "/stat");
+        // A zombie that nobody has reaped yet is dead, too.
+        return stat.empty() || stat.find(") Z ") != std::string::npos;
+    }));
+}
+
 TEST(DoctorCommand, FindsEverythingThatTheServiceNeeds) {
     const Outcome run = runVolcast({"doctor", "--json"});
     EXPECT_EQ(run.exitCode, 0) << run.out;

@@ -62,7 +62,9 @@ TEST_P(SignalToAnIdleWorker, IsOnlyAPause) {
 
 INSTANTIATE_TEST_SUITE_P(Signals, SignalToAnIdleWorker,
                          testing::Values(SIGKILL, SIGSEGV, SIGTERM, SIGSTOP),
-                         [](const auto& tested) { return std::string{::sigabbrev_np(tested.param)}; });
+                         [](const auto& tested) {
+                             return std::string{::sigabbrev_np(tested.param)};
+                         });
 
 class SignalWhileDrawing : public testing::TestWithParam<int> {};
 
@@ -96,7 +98,9 @@ TEST_P(SignalWhileDrawing, DrawsTheRequestInFlightAgain) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Signals, SignalWhileDrawing, testing::Values(SIGKILL, SIGSTOP),
-                         [](const auto& tested) { return std::string{::sigabbrev_np(tested.param)}; });
+                         [](const auto& tested) {
+                             return std::string{::sigabbrev_np(tested.param)};
+                         });
 
 TEST(Recovery, AFrameThatMissesItsDeadlineTwiceFailsAndTheOthersGoOn) {
     workers::RenderSettings settings = quickSettings();
