@@ -1,6 +1,7 @@
 #include "renderer/data/transfer_function.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <sstream>
 #include <string>
@@ -112,20 +113,25 @@ Result<TransferFunction> parseTransferFunction(std::string_view text) {
 }
 
 TransferFunction defaultTransferFunction(Range range, double lengthWorld) {
-    // Blue, light grey, red in linear light. Source of the colours: K. Moreland, Diverging Color
-    // Maps for Scientific Visualization, 2009; sRGB (59 76 192), (221 221 221), (180 4 38).
-    constexpr glm::vec3 kCool{0.0437F, 0.0723F, 0.5271F};
-    constexpr glm::vec3 kMiddle{0.7230F, 0.7230F, 0.7230F};
-    constexpr glm::vec3 kWarm{0.4564F, 0.0012F, 0.0194F};
+    // Five colours of the map viridis (S. van der Walt, N. Smith, 2015, CC0) in linear light, from
+    // sRGB (68 1 84), (59 82 139), (33 145 140), (94 201 98), (253 231 37).
+    constexpr std::array kColours{
+        glm::vec3{0.0578F, 0.0003F, 0.0887F}, glm::vec3{0.0437F, 0.0844F, 0.2582F},
+        glm::vec3{0.0152F, 0.2831F, 0.2623F}, glm::vec3{0.1119F, 0.5841F, 0.1221F},
+        glm::vec3{0.9823F, 0.7991F, 0.0185F}};
     const double length = lengthWorld > 0.0 && std::isfinite(lengthWorld) ? lengthWorld : 1.0;
     constexpr double kLargest = 1e30;
     const auto half = static_cast<float>(std::min(std::log(2.0) / length, kLargest));
     const float low = std::min(range.min, range.max);
     const float high = std::max(range.min, range.max);
-    const float middle = low + (high * 0.5F - low * 0.5F);
-    return {{{.value = low, .colour = kCool, .extinction = 0.0F},
-             {.value = middle, .colour = kMiddle, .extinction = half},
-             {.value = high, .colour = kWarm, .extinction = 2.0F * half}}};
+    TransferFunction map;
+    for (std::size_t i = 0; i < kColours.size(); ++i) {
+        const float t = static_cast<float>(i) / static_cast<float>(kColours.size() - 1);
+        map.points.push_back({.value = low * (1.0F - t) + high * t,
+                              .colour = kColours[i],
+                              .extinction = 2.0F * half * t});
+    }
+    return map;
 }
 
 }  // namespace volcast::data

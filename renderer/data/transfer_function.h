@@ -42,8 +42,8 @@ Result<void> validate(const TransferFunction& map);
 /// Errors: kInvalidArgument naming the line.
 Result<TransferFunction> parseTransferFunction(std::string_view text);
 
-/// The map a dataset is first shown with: cool to warm over `range`, extinction rising so that a
-/// path of `lengthWorld` through the middle of the range is about half opaque.
+/// The map a dataset is first shown with: dark violet to yellow over `range`, extinction rising
+/// from 0 so that `lengthWorld` of the middle value is half opaque.
 TransferFunction defaultTransferFunction(Range range, double lengthWorld);
 
 }  // namespace volcast::data

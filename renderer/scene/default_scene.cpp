@@ -1,15 +1,34 @@
 #include "renderer/scene/default_scene.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace volcast::scene {
 namespace {
 
-/// How far a ray goes through what is of interest: a third of the mean side, because features
-/// commonly fill a part of the bounds. With the whole side first pictures come out too dark.
-double typicalLength(const data::Box& bounds) {
+/// Mean of `field` over the data, as a part of its range; from the histogram.
+double meanFraction(const data::FieldSummary& field) {
+    double sum = 0.0;
+    double count = 0.0;
+    for (std::size_t i = 0; i < field.histogram.size(); ++i) {
+        sum += field.histogram[i] * (static_cast<double>(i) + 0.5);
+        count += field.histogram[i];
+    }
+    return count > 0.0 ? sum / (count * static_cast<double>(field.histogram.size())) : 0.5;
+}
+
+/// The length that is to be half opaque at the middle of the range, so that a ray through all of
+/// the data meets an optical depth of about kDepth. Extinction rises linearly, so the mean is
+/// 2 ln 2 / length * meanFraction. Data that is nearly all at one end of its range is not followed
+/// beyond kLeast and kMost.
+double halfOpaqueLength(const data::Box& bounds, const data::FieldSummary& field) {
+    constexpr double kDepth = 2.0;
+    constexpr double kLeast = 0.05;
+    constexpr double kMost = 0.5;
     const glm::dvec3 side = bounds.max - bounds.min;
-    return (side.x + side.y + side.z) / 9.0;
+    const double mean = (side.x + side.y + side.z) / 3.0;
+    const double through = std::max(std::cbrt(side.x * side.y * side.z), mean / 10.0);
+    return 2.0 * std::log(2.0) * through * std::clamp(meanFraction(field), kLeast, kMost) / kDepth;
 }
 
 }  // namespace
@@ -25,7 +44,7 @@ Layer defaultLayer(const std::string& datasetId, const data::DatasetSummary& sum
     const data::FieldSummary& shown =
         named == summary.fields.end() ? summary.fields.front() : *named;
     layer.field = shown.name;
-    layer.map = data::defaultTransferFunction(shown.range, typicalLength(summary.bounds));
+    layer.map = data::defaultTransferFunction(shown.range, halfOpaqueLength(summary.bounds, shown));
     layer.coloured = model == RayModel::kSurface;
     return layer;
 }
