@@ -13,7 +13,9 @@ SCENE_MODEL = ["renderer/scene/camera", "renderer/scene/default_scene", "rendere
 BASE = ["renderer/base"]
 MODEL = BASE + ["renderer/data", *SCENE_MODEL]
 DRAWING = MODEL + ["renderer/plan", "renderer/gpu", "renderer/shading"]
-MESSAGES = ["renderer/worker/scene_message", "renderer/worker/channel"]
+# Both ends of the channel between server and worker; no GL.
+MESSAGES = [f"renderer/worker/{part}" for part in
+            ("channel", "exit_codes", "frame_message", "scene_json", "scene_message", "slot_layout")]
 WORKERS = MODEL + MESSAGES + ["renderer/plan", "server/workers"]
 SESSION = WORKERS + ["protocol", "server/video", "server/session", "server/settings"]
 
@@ -29,17 +31,14 @@ ALLOWED = {
     "renderer/volume": DRAWING + ["renderer/volume", "shaders/shared"],
     "renderer/scene": DRAWING + ["renderer/mesh", "renderer/volume", "renderer/scene",
                                  "shaders/shared"],
-    "renderer/worker/channel": BASE + ["renderer/worker/channel"],
-    "renderer/worker/scene_message": MODEL + ["renderer/worker/scene_message"],
+    **{part: MODEL + ["renderer/plan", *MESSAGES] for part in MESSAGES},
     "renderer/worker": ["renderer", "shaders/shared"],
     "protocol": BASE + ["protocol"],
     "server/video": BASE + ["server/video"],
     "server/workers": WORKERS,
     "server/session": SESSION,
     "server/net": SESSION + ["server/net"],
-    "server/commands": ["renderer/base", "renderer/data", "renderer/scene", "renderer/plan",
-                        "renderer/worker/channel", "renderer/worker/scene_message", "protocol",
-                        "server"],
+    "server/commands": MODEL + MESSAGES + ["renderer/plan", "protocol", "server"],
     "server/settings": BASE + ["server"],
     "server/main": ["server/commands"],
     "server/import": BASE + ["renderer/data", "renderer/worker/channel", "server/import"],

@@ -34,7 +34,8 @@ std::vector<EGLDeviceEXT> queryDevices() {
     std::array<EGLDeviceEXT, kMaxDevices> devices{};
     EGLint count = 0;
     if (query == nullptr || query(kMaxDevices, devices.data(), &count) != EGL_TRUE) return {};
-    return {devices.begin(), devices.begin() + count};
+    // Parentheses: in braces, two pointers to handles would themselves become two handles.
+    return std::vector<EGLDeviceEXT>(devices.begin(), devices.begin() + count);
 }
 
 EglDeviceInfo describe(EGLDeviceEXT device, int index) {

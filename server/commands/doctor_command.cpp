@@ -9,6 +9,7 @@
 #include <spdlog/spdlog.h>
 
 #include "server/commands/findings.h"
+#include "server/commands/json_text.h"
 
 namespace volcast::commands {
 
@@ -58,7 +59,7 @@ int run(const DoctorOptions& options) {
     const bool canServe = std::ranges::none_of(
         findings, [](const Finding& finding) { return finding.required && !finding.ok; });
     if (options.asJson) {
-        std::printf("%s\n", json::serialize(asJson(findings, canServe)).c_str());
+        std::printf("%s\n", jsonText(asJson(findings, canServe)).c_str());
     } else {
         print(findings);
         std::printf("%s\n", canServe ? "Volcast can serve here."

@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 #include <boost/json.hpp>
 
+#include "server/commands/json_text.h"
 #include "server/workers/import_service.h"
 
 namespace volcast::commands {
@@ -150,13 +151,13 @@ int runImportCommand(ImportOptions options) {
         if (options.asJson) {
             const json::object error{{"error", name(imported.error().code)},
                                      {"message", imported.error().message}};
-            std::printf("%s\n", json::serialize(error).c_str());
+            std::printf("%s\n", jsonText(error).c_str());
         }
         std::fprintf(stderr, "volcast import: %s\n", imported.error().message.c_str());
         return 1;
     }
     if (options.asJson) {
-        std::printf("%s\n", json::serialize(asJson(*imported)).c_str());
+        std::printf("%s\n", jsonText(asJson(*imported)).c_str());
     } else {
         print(*imported);
     }

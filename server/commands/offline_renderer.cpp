@@ -1,12 +1,8 @@
 #include "server/commands/offline_renderer.h"
 
 #include <condition_variable>
-#include <cstdlib>
-#include <filesystem>
 #include <mutex>
 #include <optional>
-#include <system_error>
-#include <unistd.h>
 #include <utility>
 
 namespace volcast::commands {
@@ -48,26 +44,6 @@ Result<OfflineRenderer> OfflineRenderer::create(const workers::RenderSettings& s
 Result<workers::RenderedFrame> OfflineRenderer::draw(workers::RenderRequest request) {
     service_->submit(std::move(request));
     return outcome_->take();
-}
-
-std::string userCacheFolder() {
-    namespace fs = std::filesystem;
-    const char* cache = std::getenv("XDG_CACHE_HOME");
-    const char* home = std::getenv("HOME");
-    fs::path folder;
-    if (cache != nullptr && *cache == '/') {
-        folder = cache;
-    } else if (home != nullptr && *home == '/') {
-        folder = fs::path{home} / ".cache";
-    } else {
-        return {};
-    }
-    folder /= "volcast/shaders";
-    std::error_code error;
-    fs::create_directories(folder, error);
-    if (error || ::access(folder.c_str(), R_OK | W_OK | X_OK) != 0) return {};
-    fs::permissions(folder, fs::perms::owner_all, error);
-    return folder.string();
 }
 
 }  // namespace volcast::commands

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <memory>
-#include <string>
 
 #include "server/workers/render_service.h"
 
@@ -25,8 +24,5 @@ private:
     std::shared_ptr<Outcome> outcome_;
     std::unique_ptr<workers::RenderService> service_;
 };
-
-/// Where this user's driver may keep compiled shaders between runs; empty: nowhere.
-std::string userCacheFolder();
 
 }  // namespace volcast::commands

@@ -13,7 +13,9 @@
 #include <spdlog/spdlog.h>
 
 #include "renderer/worker/frame_message.h"
+#include "server/commands/cache_folder.h"
 #include "server/commands/files.h"
+#include "server/commands/json_text.h"
 #include "server/commands/offline_renderer.h"
 #include "server/commands/progress.h"
 #include "server/commands/render_options.h"
@@ -185,7 +187,7 @@ Result<void> draw(const RenderOptions& options) {
     const json::object line =
         report(options, *data, *scene, *first, *times, renderer->service().status().glRenderer,
                first->workerPeakMb, loadMs);
-    std::printf("%s\n", json::serialize(line).c_str());
+    std::printf("%s\n", jsonText(line).c_str());
     return {};
 }
 

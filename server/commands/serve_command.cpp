@@ -10,6 +10,7 @@
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include "server/commands/cache_folder.h"
 #include "server/settings.h"
 
 namespace volcast::commands {
@@ -39,6 +40,7 @@ int complain(const Error& error) {
 /// Builds the parts, joins them, serves.
 int serve(ServeSettings settings) {
     startLog(settings.logLevel);
+    if (settings.render.cacheFolder.empty()) settings.render.cacheFolder = userCacheFolder();
     if (settings.listen.clientFolder.empty()) settings.listen.clientFolder = defaultClientFolder();
     session::ViewRouter router;
     session::EncodePool encoders{settings.encodeThreads};

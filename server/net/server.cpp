@@ -12,6 +12,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include "renderer/base/printable.h"
 #include "server/net/http_answers.h"
 #include "server/net/web_socket.h"
 
@@ -147,7 +148,7 @@ asio::awaitable<void> BeastServer::acceptAll() {
             co_await acceptor_.async_accept(asio::make_strand(context_), kAsTuple);
         if (error) {
             if (draining_) co_return;
-            spdlog::warn("event=accept_failed error=\"{}\"", error.message());
+            spdlog::warn(R"(event=accept_failed error="{}")", error.message());
             // Out of descriptors, most likely: wait for some to come back.
             pause_.expires_after(std::chrono::milliseconds{100});
             co_await pause_.async_wait(kAsTuple);
@@ -207,7 +208,7 @@ std::optional<Response> BeastServer::refusal(const Request& request) const {
     }
     const std::string_view origin = request[http::field::origin];
     if (!originAllowed(origin, request[http::field::host], origins_)) {
-        spdlog::warn("event=origin_refused origin=\"{}\"", origin.substr(0, 200));
+        spdlog::warn(R"(event=origin_refused origin="{}")", base::printable(origin));
         return HttpAnswers::plain(request, http::status::forbidden,
                                   "pages of this origin may not connect; the server's "
                                   "--allow-origin lists those that may");

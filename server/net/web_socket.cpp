@@ -79,7 +79,8 @@ asio::awaitable<void> WebSocket::readAll() {
     while (true) {
         const auto [error, bytes] = co_await socket_.async_read(buffer, kAsTuple);
         if (error) {
-            spdlog::debug("event=read_ended connection={} reason=\"{}\"", number_, error.message());
+            spdlog::debug(R"(event=read_ended connection={} reason="{}")", number_,
+                          error.message());
             co_return;
         }
         const auto data = buffer.cdata();
@@ -139,7 +140,7 @@ asio::awaitable<bool> WebSocket::write(const session::Outgoing& message) {
 
 asio::awaitable<void> WebSocket::close(session::Closing closing) {
     watch(kCloseWithin);
-    spdlog::info("event=closing connection={} code={} reason=\"{}\"", number_, closing.code,
+    spdlog::info(R"(event=closing connection={} code={} reason="{}")", number_, closing.code,
                  closing.reason);
     const websocket::close_reason reason{static_cast<websocket::close_code>(closing.code),
                                          closing.reason};

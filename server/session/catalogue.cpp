@@ -5,6 +5,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include "renderer/base/printable.h"
 #include "server/session/beneath.h"
 #include "server/session/dataset_message.h"
 
@@ -200,12 +201,12 @@ void Catalogue::importOne(const std::string& id) {
     const std::lock_guard lock{mutex_};
     Entry& entry = entries_.at(id);
     if (imported) {
-        spdlog::info(R"(event=imported dataset="{}" format="{}" ms={:.0f} peak_mb={:.0f})", id,
-                     imported->format, imported->ms, imported->peakMb);
+        spdlog::info(R"(event=imported dataset="{}" format="{}" ms={:.0f} peak_mb={:.0f})",
+                     base::printable(id), imported->format, imported->ms, imported->peakMb);
         finished(entry, std::move(*imported));
     } else {
-        spdlog::warn(R"(event=import_failed dataset="{}" code={} error="{}")", id,
-                     name(imported.error().code), imported.error().message);
+        spdlog::warn(R"(event=import_failed dataset="{}" code={} error="{}")", base::printable(id),
+                     name(imported.error().code), base::printable(imported.error().message, 1000));
         entry.info.set_state(v1::DATASET_STATE_FAILED);
         entry.info.set_error(imported.error().message);
     }

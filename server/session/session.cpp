@@ -6,6 +6,7 @@
 #include <spdlog/spdlog.h>
 
 #include "protocol/framing.h"
+#include "renderer/base/printable.h"
 #include "server/session/on_strand.h"
 
 namespace volcast::session {
@@ -97,7 +98,7 @@ void Session::hello(const v1::Hello& message) {
     }
     greeted_ = true;
     spdlog::info(R"(event=hello connection={} client="{}" form={})", number_,
-                 message.client().substr(0, 80), form_ == Form::kJson ? "json" : "binary");
+                 base::printable(message.client(), 80), form_ == Form::kJson ? "json" : "binary");
     welcome();
 }
 

@@ -4,6 +4,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include "renderer/base/printable.h"
 #include "renderer/worker/scene_message.h"
 #include "server/session/on_strand.h"
 #include "server/session/session.h"
@@ -37,7 +38,7 @@ void Session::setState(View& view, v1::ViewState state, const std::string& text)
     if (view.state == state) return;
     view.state = state;
     spdlog::info(R"(event=view_state connection={} view={} state={} message="{}")", number_,
-                 view.number, v1::ViewState_Name(state), text);
+                 view.number, v1::ViewState_Name(state), base::printable(text, 1000));
     send(statusMessage(view.number, state, text));
 }
 

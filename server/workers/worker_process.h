@@ -10,7 +10,7 @@
 
 #include "renderer/base/memfd.h"
 #include "renderer/worker/channel.h"
-#include "renderer/worker/slots.h"
+#include "renderer/worker/slot_layout.h"
 #include "server/workers/child_process.h"
 #include "server/workers/render_service.h"
 #include "volcast/internal/v1/worker.pb.h"
