@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Checks the sources. --sources: format, includes and shaders, in seconds. --tidy: clang-tidy over
+# Checks the sources. --sources: format and includes, in seconds. --tidy: clang-tidy over
 # all C++ of build/dev or build/ci as well, in many minutes. Says what failed; exit 1 if any did.
 set -uo pipefail
 cd "$(dirname "$0")/../.."
@@ -18,15 +18,6 @@ format() {
     git ls-files -z '*.cpp' '*.h' | xargs -0 clang-format-14 --dry-run --Werror
 }
 
-shaders() {  # Every ray program and pass as the assembler emits it, read by another compiler.
-    local tool=$1 out
-    out=$(mktemp -d)
-    "$tool" "$out" && for file in "$out"/*; do
-        glslangValidator "$file" >"$out.log" || { cat "$out.log"; rm -rf "$out" "$out.log"; return 1; }
-    done
-    rm -rf "$out" "$out.log"
-}
-
 tidy() {
     local build=build/dev
     [ -f $build/compile_commands.json ] || build=build/ci
@@ -36,11 +27,5 @@ tidy() {
 
 check "format (clang-format 14)" format
 check "includes follow the layers" python3 deploy/dev/check_includes.py
-for tool in build/ci/bin/emit_shaders build/dev/bin/emit_shaders build/release/bin/emit_shaders; do
-    if [ -x $tool ]; then
-        check "shaders (glslangValidator)" shaders "$PWD/$tool"
-        break
-    fi
-done
 if [ "${1:-}" = --tidy ]; then check "clang-tidy" tidy; fi
 exit $status

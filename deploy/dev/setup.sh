@@ -18,10 +18,10 @@ packages=(
     # read by volcast-import
     python3-vtk9 python3-meshio python3-h5py python3-numpy
     # the build, googletest and benchmark included: one configuration for users and tests
-    libgtest-dev libgmock-dev libbenchmark-dev
+    libgtest-dev libgmock-dev libbenchmark-dev libpng-dev
 )
 if [ "${1:-}" = --test ]; then
-    packages+=(chromium clang-format-14 libpng-dev glslang-tools procps)
+    packages+=(chromium clang-format-14)
 fi
 # Any Node.js from 18 on will do; Debian 12's own is 18.
 node_major=$(node --version 2>/dev/null | sed 's/^v\([0-9]*\).*/\1/' || true)
