@@ -1,6 +1,7 @@
 import type { Browser } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import { percentile } from "../../web_client/src/state/latencies";
+import type { Stages } from "../../web_client/src/state/recorder";
 import { Client, launch } from "./support/client";
 import { Server } from "./support/server";
 
@@ -24,8 +25,14 @@ afterAll(async () => {
 });
 
 interface Diagnostics {
-  volcast: { latencies(): readonly number[]; clearLatencies(): void };
+  volcast: {
+    latencies(): readonly number[];
+    stages(): readonly Stages[];
+    clearLatencies(): void;
+  };
 }
+
+const kStages = ["wait", "upload", "draw", "readback", "encode", "queue", "decode"] as const;
 
 /** Printed for the reader, not judged: a busy machine is no bug. */
 describe("latency", () => {
@@ -55,6 +62,16 @@ describe("latency", () => {
     console.info(
       `input to drawn at ${side}x${side}: p50 ${show(0.5)} ms, p95 ${show(0.95)} ms, ${ms.length} inputs`,
     );
+    const pictures = await page.evaluate(() => (window as unknown as Diagnostics).volcast.stages());
+    expect(pictures.length).toBeGreaterThan(0);
+    const medians = kStages.map((stage) => {
+      const median = percentile(
+        pictures.map((picture) => picture[stage]),
+        0.5,
+      );
+      return `${stage} ${(median ?? Number.NaN).toFixed(2)}`;
+    });
+    console.info(`  median ms by stage of ${pictures.length} pictures: ${medians.join(", ")}`);
     await client.close();
   });
 });

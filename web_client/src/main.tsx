@@ -15,7 +15,7 @@ import {
 import { createAppState, notify, type PictureInfo } from "./state/app_state";
 import type { ViewDocument } from "./state/document";
 import { keepDocument, keptDocument } from "./state/keeper";
-import { Recorder } from "./state/recorder";
+import { Recorder, type Stages } from "./state/recorder";
 import { App } from "./ui/app";
 import type { AppPort } from "./ui/port";
 import "./ui/style.css";
@@ -29,8 +29,12 @@ import { followSize, limited } from "./view/viewport";
 
 declare global {
   interface Window {
-    /** Measurements for benchmarks: input to drawn in ms, oldest first. */
-    volcast: { latencies(): readonly number[]; clearLatencies(): void };
+    /** Measurements for benchmarks in ms, oldest first: input to drawn, and stages of pictures. */
+    volcast: {
+      latencies(): readonly number[];
+      stages(): readonly Stages[];
+      clearLatencies(): void;
+    };
   }
 }
 
@@ -88,6 +92,18 @@ function reported(report: PictureReport): void {
   const { header } = item.frame;
   const drawnAt = report.doneAt - performance.timeOrigin;
   recorder.drawn(drawnAt, session.takeInputTime(header.inputSeq));
+  if (header.redrawn && header.timings) {
+    const { waitMs, uploadMs, drawMs, readbackMs, encodeMs, queueMs } = header.timings;
+    recorder.took({
+      wait: waitMs,
+      upload: uploadMs,
+      draw: drawMs,
+      readback: readbackMs,
+      encode: encodeMs,
+      queue: queueMs,
+      decode: report.decodeMs,
+    });
+  }
   const shown: PictureInfo = {
     ...header,
     view: report.view,
@@ -198,6 +214,7 @@ document.addEventListener("visibilitychange", () => {
 keepDocument(state);
 window.volcast = {
   latencies: () => recorder.latencies(),
+  stages: () => recorder.stages(),
   clearLatencies: () => recorder.clear(),
 };
 

@@ -1,18 +1,18 @@
-/** The newest `capacity` numbers, oldest first. */
-export class Ring {
+/** The newest `capacity` values, oldest first. */
+export class Ring<T = number> {
   readonly #capacity: number;
-  #values: number[] = [];
+  #values: T[] = [];
 
   constructor(capacity: number) {
     this.#capacity = capacity;
   }
 
-  push(value: number): void {
+  push(value: T): void {
     this.#values.push(value);
     if (this.#values.length > this.#capacity) this.#values.shift();
   }
 
-  values(): readonly number[] {
+  values(): readonly T[] {
     return [...this.#values];
   }
 

@@ -4,10 +4,22 @@ import { percentile, Ring, rate } from "./latencies";
 const kLatencies = 200;
 const kWindowMs = 1000;
 
+/** Milliseconds of one picture by stage, the server's and then the client's. */
+export interface Stages {
+  readonly wait: number;
+  readonly upload: number;
+  readonly draw: number;
+  readonly readback: number;
+  readonly encode: number;
+  readonly queue: number;
+  readonly decode: number;
+}
+
 /** Counts pictures and times them, for the readout and for benchmarks. */
 export class Recorder {
   readonly #state: AppState;
   readonly #latencies = new Ring(kLatencies);
+  readonly #stages = new Ring<Stages>(kLatencies);
   readonly #drawn = new Ring(kLatencies);
 
   constructor(state: AppState) {
@@ -27,6 +39,16 @@ export class Recorder {
     if (p50 !== undefined && p95 !== undefined) this.#state.latency.value = { p50, p95 };
   }
 
+  /** A picture that was drawn for an input took this long by stage. */
+  took(stages: Stages): void {
+    this.#stages.push(stages);
+  }
+
+  /** Stages of the newest pictures, oldest first. */
+  stages(): readonly Stages[] {
+    return this.#stages.values();
+  }
+
   /** Input to drawn in ms, oldest first. */
   latencies(): readonly number[] {
     return this.#latencies.values();
@@ -34,6 +56,7 @@ export class Recorder {
 
   clear(): void {
     this.#latencies.clear();
+    this.#stages.clear();
   }
 
   #countFrames(): void {
