@@ -101,7 +101,9 @@ private:
 
     /// The supervisor lives on this thread alone: its workers die with the thread that made them.
     void run(std::promise<Result<void>>& begun) {
-        Supervisor supervisor{settings_, events_, folder(), wake_.get()};
+        const Supervisor* teller = nullptr;
+        Supervisor supervisor{settings_, eventsAfterStatusOf(teller), folder(), wake_.get()};
+        teller = &supervisor;
         const Result<void> ready = supervisor.begin();
         publish(supervisor);
         begun.set_value(ready);
@@ -111,6 +113,24 @@ private:
             return std::exchange(inbox_, {});
         };
         while (supervisor.turn(take)) publish(supervisor);
+    }
+
+    /// The events, of which those that speak of a loss come when status() knows of it already.
+    RenderEvents eventsAfterStatusOf(const Supervisor*& teller) {
+        RenderEvents events = events_;
+        if (events.failed) {
+            events.failed = [this, &teller](std::uint64_t view, std::uint64_t tag, Error error) {
+                publish(*teller);
+                events_.failed(view, tag, std::move(error));
+            };
+        }
+        if (events.recovering) {
+            events.recovering = [this, &teller](std::vector<std::uint64_t> views) {
+                publish(*teller);
+                events_.recovering(std::move(views));
+            };
+        }
+        return events;
     }
 
     void publish(const Supervisor& supervisor) {
