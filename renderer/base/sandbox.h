@@ -8,6 +8,14 @@
 
 namespace volcast::base {
 
+/// Whether maxAddressSpaceBytes is kept. Not in a build with ASan or TSan: their shadow memory
+/// alone takes terabytes of addresses.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+inline constexpr bool kLimitsAddressSpace = false;
+#else
+inline constexpr bool kLimitsAddressSpace = true;
+#endif
+
 /// What a process may still do after enterSandbox(); everything else is refused, with EPERM or
 /// (files) EACCES.
 struct SandboxPolicy {
@@ -15,7 +23,7 @@ struct SandboxPolicy {
     std::vector<std::string> writable;  ///< The same, but to read, write and send ioctls to.
     bool mayExecute = false;            ///< execve of what is readable, and new processes.
     bool mayUseThreads = true;
-    std::uint64_t maxAddressSpaceBytes = 0;  ///< 0: no limit.
+    std::uint64_t maxAddressSpaceBytes = 0;  ///< 0: no limit; see kLimitsAddressSpace.
     std::uint64_t maxFileBytes = 0;   ///< Of any file it writes, memfds included; 0: no limit.
     std::uint64_t maxCpuSeconds = 0;  ///< 0: no limit.
 };

@@ -67,9 +67,7 @@ base::SandboxPolicy policyFor(const data::load::Request& request,
     base::SandboxPolicy policy;
     policy.readable = std::move(datasetPaths);
     policy.maxFileBytes = request.maxMemoryBytes;
-#ifndef __SANITIZE_ADDRESS__  // Its shadow memory alone takes terabytes of address space.
     policy.maxAddressSpaceBytes = request.maxMemoryBytes + ownAddressSpace(request.path);
-#endif
     if (!data::load::needsPython(request.path)) return policy;
     policy.mayExecute = true;  // Until its reader has started.
     for (const char* path :

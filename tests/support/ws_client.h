@@ -21,7 +21,7 @@ struct WsMessage {
 struct WsOptions {
     std::string target = "/v1/ws";
     std::string subprotocol = "volcast.v1";  ///< Empty: none is offered.
-    std::string origin = {};                      ///< Empty: no Origin header.
+    std::string origin = {};                 ///< Empty: no Origin header.
     int receiveBuffer = 0;                   ///< SO_RCVBUF in bytes; 0: the system's choice.
 };
 
