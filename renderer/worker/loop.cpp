@@ -64,7 +64,7 @@ ExitCode Loop::run() {
             spdlog::error("{}", descriptors.error().message);
             return kExitProtocol;
         }
-        if (Result<void> done = handle(message, *std::move(*descriptors)); !done) {
+        if (Result<void> done = handle(message, **descriptors); !done) {
             if (deviceLost_) spdlog::error("{}", done.error().message);
             if (deviceLost_) return kExitDeviceLost;
             if (done.error().code == ErrorCode::kDeviceLost) return kExitDone;
@@ -74,7 +74,7 @@ ExitCode Loop::run() {
     }
 }
 
-Result<void> Loop::handle(const wire::ToWorker& message, Descriptors descriptors) {
+Result<void> Loop::handle(const wire::ToWorker& message, const Descriptors& descriptors) {
     switch (message.body_case()) {
         case wire::ToWorker::kAddDataset: {
             return addDataset(message.add_dataset().id(), descriptors);

@@ -26,7 +26,7 @@ private:
     using Descriptors = std::vector<base::FileDescriptor>;
 
     /// Errors: kDeviceLost (server or device gone), kInvalidArgument (unknown message).
-    Result<void> handle(const internal::v1::ToWorker& message, Descriptors descriptors);
+    Result<void> handle(const internal::v1::ToWorker& message, const Descriptors& descriptors);
     Result<void> addDataset(const std::string& id, const Descriptors& descriptors);
     Result<void> warmUp(std::uint32_t step);
     Result<void> render(const internal::v1::Render& request, const Descriptors& descriptors);

@@ -61,7 +61,7 @@ Result<void> readProjection(const json::object& object, scene::Camera& camera) {
         return {};
     }
     if (text && value->get_string() == "perspective") return {};
-    return wrong("projection", "is neither \"perspective\" nor \"orthographic\"");
+    return wrong("projection", R"(is neither "perspective" nor "orthographic")");
 }
 
 Result<void> checkKeys(const json::object& object) {
