@@ -6,7 +6,7 @@
 #include "server/commands/render_command.h"
 #include "server/commands/serve_command.h"
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) {  // NOLINT(bugprone-exception-escape): our bugs end in abort()
     CLI::App app{"Volcast: remote volume rendering with stated accuracy", "volcast"};
     app.set_version_flag("--version", "volcast " VOLCAST_VERSION);
     app.require_subcommand(1);

@@ -62,7 +62,7 @@ int serve(ServeSettings settings) {
     auto server = net::Server::create(settings.listen, shared);
     if (!server) return complain(server.error());
     const workers::RenderStatus status = (*render)->status();
-    spdlog::info("event=ready url={} gl_renderer=\"{}\" data=\"{}\"", (*server)->url(),
+    spdlog::info(R"(event=ready url={} gl_renderer="{}" data="{}")", (*server)->url(),
                  status.glRenderer, settings.dataFolder.empty() ? "demo" : settings.dataFolder);
     std::printf("Volcast is ready: %s\n", (*server)->url().c_str());
     std::fflush(stdout);

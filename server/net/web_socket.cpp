@@ -19,7 +19,7 @@ constexpr std::chrono::seconds kHandshake{30};
 constexpr std::chrono::seconds kIdle{60};  ///< Pinged at half of it.
 constexpr std::chrono::seconds kStuckWrite{20};
 constexpr std::chrono::seconds kCloseWithin{3};
-constexpr std::size_t kSlice = 64 * 1024;
+constexpr std::size_t kSlice = std::size_t{64} * 1024;
 constexpr int kNotSentLowat = 128 * 1024;
 
 /// The kernel queues little beyond what is on the wire: newer frames overtake in our slots instead.
