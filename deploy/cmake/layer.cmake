@@ -22,6 +22,7 @@ endfunction()
 
 # volcast_test(NAME FOLDER LABEL label [LINK targets...]): one GoogleTest program of FOLDER's
 # *_test.cpp. `cpu` tests need no GPU, `gl` tests a context, `e2e` tests start real processes.
+# What a sanitizer finds ends the process that it was found in, the children included.
 function(volcast_test name folder)
     cmake_parse_arguments(TEST "" "LABEL" "LINK" ${ARGN})
     file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${folder}/*.cpp)
@@ -30,6 +31,10 @@ function(volcast_test name folder)
     endif()
     add_executable(${name} ${sources})
     target_link_libraries(${name} PRIVATE ${TEST_LINK} GTest::gmock GTest::gtest_main)
+    set(sanitizers "")
+    if(VOLCAST_SANITIZE)
+        set(sanitizers ENVIRONMENT "UBSAN_OPTIONS=print_stacktrace=1:halt_on_error=1")
+    endif()
     gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST
-                         PROPERTIES LABELS ${TEST_LABEL} TIMEOUT 300)
+                         PROPERTIES LABELS ${TEST_LABEL} TIMEOUT 300 ${sanitizers})
 endfunction()

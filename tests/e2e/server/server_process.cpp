@@ -11,6 +11,8 @@
 #include <thread>
 #include <unistd.h>
 
+#include <gtest/gtest.h>
+
 namespace volcast::test {
 
 namespace {
@@ -49,12 +51,22 @@ pid_t start(const fs::path& folder, const std::vector<std::string>& arguments,
     return failed != 0 ? -1 : pid;
 }
 
+/// In a build with sanitizers: the server and its children, which it replaces when they die, share
+/// one stderr, and none may have been reported.
+void expectNoSanitizerReport(const std::string& err) {
+    for (const char* mark : {"Sanitizer", "runtime error: "}) {
+        EXPECT_EQ(err.find(mark), std::string::npos) << err;
+    }
+}
+
 std::optional<Ended> waitFor(pid_t pid, const fs::path& folder) {
     int status = 0;
     if (!eventually([&] { return ::waitpid(pid, &status, WNOHANG) == pid; })) return std::nullopt;
-    return Ended{.exitCode = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status),
-                 .out = readFile(folder / "out"),
-                 .err = readFile(folder / "err")};
+    Ended ended{.exitCode = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status),
+                .out = readFile(folder / "out"),
+                .err = readFile(folder / "err")};
+    expectNoSanitizerReport(ended.err);
+    return ended;
 }
 
 }  // namespace
