@@ -35,7 +35,8 @@ std::vector<EGLDeviceEXT> queryDevices() {
     EGLint count = 0;
     if (query == nullptr || query(kMaxDevices, devices.data(), &count) != EGL_TRUE) return {};
     // Parentheses: in braces, two pointers to handles would themselves become two handles.
-    return std::vector<EGLDeviceEXT>(devices.begin(), devices.begin() + count);
+    std::vector<EGLDeviceEXT> found(devices.begin(), devices.begin() + count);
+    return found;
 }
 
 EglDeviceInfo describe(EGLDeviceEXT device, int index) {
