@@ -21,8 +21,9 @@ constexpr std::array kReaders{
     Reader{"vtkmodules.vtkIOXML", "VTU, VTI", "python3-vtk9"},
     Reader{"vtkmodules.vtkIOLegacy", "legacy VTK", "python3-vtk9"},
     Reader{"vtkmodules.vtkIOExodus", "Exodus", "python3-vtk9"},
-    Reader{"vtkmodules.vtkIOImage", "MHD, NRRD, NIfTI", "python3-vtk9"},
-    Reader{"meshio", "XDMF, Gmsh", "python3-meshio"},
+    Reader{"numpy", "MHD, NRRD, NIfTI", "python3-numpy"},
+    Reader{"h5py", "XDMF", "python3-h5py"},
+    Reader{"meshio", "Gmsh", "python3-meshio"},
 };
 
 Finding program(const std::string& name, bool required, const std::string& cost) {
