@@ -1,4 +1,5 @@
 #include <array>
+#include <cstddef>
 
 #include "gmock/gmock.h"
 
@@ -36,7 +37,7 @@ TEST_F(ProgramTest, FullScreenPassFillsEveryPixelWithTheTopRowFirst) {
     target.begin({});
     program->use();
     device().draw(gpu::Primitive::kTriangles, 3);
-    std::vector<float> pixels(5 * 3 * 4);
+    std::vector<float> pixels(std::size_t{5} * 3 * 4);
     target.readRgba32F(pixels);
     for (int y = 0; y < 3; ++y) {
         for (int x = 0; x < 5; ++x) {
@@ -66,7 +67,7 @@ TEST_F(ProgramTest, ClipSpaceUpIsRowZero) {
         target.begin({.cull = cull});
         program->use();
         device().draw(gpu::Primitive::kTriangles, 3);
-        std::vector<float> pixels(2 * 2 * 4);
+        std::vector<float> pixels(std::size_t{2} * 2 * 4);
         target.readRgba32F(pixels);
         EXPECT_EQ(pixels[0], 1.0F) << "the top row is drawn";
         EXPECT_EQ(pixels[8], 0.0F) << "the bottom row is not";
