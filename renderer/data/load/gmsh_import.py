@@ -14,6 +14,10 @@ def check_claims(path):
         raise Refusal("is no Gmsh file (it does not start with $MeshFormat)")
     version = head.split(b"$MeshFormat", 1)[1].split()[:2]
     import re
+    if size <= len(head):
+        for name in re.findall(rb"^\$(Nodes|Elements|NodeData|ElementData)\s", head, re.M):
+            if b"$End" + name not in head:
+                raise Refusal(f"is cut off: ${name.decode()} has no $End{name.decode()}")
     for name, text in re.findall(rb"\$(Nodes|Elements|NodeData|ElementData)\r?\n([^\r\n]{0,80})",
                                  head):
         for word in text.split()[:2]:
@@ -46,6 +50,15 @@ def values_by_block(cells, raw):
     return result
 
 
+def reason_of(error):
+    """What an exception of meshio means to whoever made the file."""
+    if isinstance(error, KeyError):
+        return f"element type {error} is not known"
+    if "cannot reshape" in str(error):
+        return "a section holds fewer numbers than it says, or something that is no number"
+    return str(error) or type(error).__name__
+
+
 def read(path, send):
     check_claims(path)
     import io
@@ -59,8 +72,7 @@ def read(path, send):
     except Refusal:
         raise
     except Exception as error:
-        text = str(error) or type(error).__name__
-        raise Refusal(f"meshio cannot read it ({text})") from error
+        raise Refusal(f"meshio cannot read it ({reason_of(error)})") from error
     send.format("Gmsh")
     for line in said.getvalue().splitlines():
         send.warning(line.strip())

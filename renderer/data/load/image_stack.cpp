@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <memory>
@@ -120,7 +121,8 @@ Result<Input> openImage(const std::string& path) {
 
 struct Stack {
     VolumeInput volume = {};
-    OIIO::TypeDesc type = {};
+    OIIO::TypeDesc type = {};      ///< As kept.
+    OIIO::TypeDesc fileType = {};  ///< As it stands in the first slice.
     int parts = 0;
     std::uint64_t maxBytes = 0;
     std::uint64_t bytes = 0;
@@ -137,6 +139,7 @@ std::pair<VoxelType, OIIO::TypeDesc> kept(const OIIO::TypeDesc& type) {
 void start(const OIIO::ImageSpec& spec, Stack& stack, std::vector<std::string>& warnings) {
     const auto [voxels, type] = kept(spec.format);
     stack.type = type;
+    stack.fileType = spec.format;
     stack.parts = spec.nchannels;
     stack.volume.type = voxels;
     stack.volume.size = {spec.width, spec.height, 0};
@@ -163,12 +166,41 @@ Result<void> check(const std::string& path, const OIIO::ImageSpec& spec, const S
                         " channels, the first slice is " + std::to_string(size.x) + " x " +
                         std::to_string(size.y) + " with " + std::to_string(stack.parts));
     }
+    if (spec.format != stack.fileType) {  // It would be stretched to the range of the first.
+        return fail(ErrorCode::kInvalidArgument,
+                    path + ": has pixels of type " + spec.format.c_str() +
+                        ", those of the first slice are " + stack.fileType.c_str());
+    }
     if (size.x > kMaxVolumeSide || size.y > kMaxVolumeSide || size.z >= kMaxVolumeSide) {
         return fail(ErrorCode::kLimitExceeded, path + ": more than " +
                                                    std::to_string(kMaxVolumeSide) +
                                                    " pixels or slices along a side");
     }
     return {};
+}
+
+/// Refuses a slice with a value that is not finite.
+Result<void> checkFinite(const std::string& path, int page, const Stack& stack,
+                         const std::vector<std::byte>& slice) {
+    if (stack.type != OIIO::TypeDesc::FLOAT) return {};
+    const auto parts = static_cast<std::size_t>(stack.parts);
+    const auto width = static_cast<std::size_t>(stack.volume.size.x);
+    for (std::size_t i = 0; i < slice.size() / sizeof(float); ++i) {
+        float value = 0.0F;
+        std::memcpy(&value, slice.data() + i * sizeof value, sizeof value);
+        if (std::isfinite(value)) continue;
+        const std::size_t pixel = i / parts;
+        return fail(ErrorCode::kInvalidArgument,
+                    path + ": page " + std::to_string(page) + ": pixel (" +
+                        std::to_string(pixel % width) + ", " + std::to_string(pixel / width) +
+                        ") is " + std::to_string(value) + ", not a finite number");
+    }
+    return {};
+}
+
+/// A library's reason in one line.
+std::string firstLine(const std::string& text) {
+    return text.substr(0, text.find('\n'));
 }
 
 /// Appends one slice, its channels taken apart.
@@ -185,8 +217,11 @@ Result<void> append(const std::string& path, OIIO::ImageInput& input, int page, 
     std::vector<std::byte> slice(pixels * parts * each);
     if (!input.read_image(page, 0, 0, stack.parts, stack.type, slice.data())) {
         return fail(ErrorCode::kInvalidArgument, path + ": page " + std::to_string(page) +
-                                                     " cannot be read (" + input.geterror() + ")");
+                                                     " cannot be read (" +
+                                                     firstLine(input.geterror()) + ")");
     }
+    auto finite = checkFinite(path, page, stack, slice);
+    if (!finite) return finite;
     for (std::size_t c = 0; c < parts; ++c) {
         std::vector<std::byte>& voxels = stack.volume.channels[c].voxels;
         const std::size_t before = voxels.size();

@@ -275,6 +275,89 @@ def exodus_cell_values(leaves, blocks, send, step):
         yield name, numpy.concatenate(parts)
 
 
+NETCDF_BYTES = {1: 1, 2: 1, 3: 2, 4: 4, 5: 4, 6: 8, 7: 1, 8: 2, 9: 4, 10: 8, 11: 8}
+
+
+class NetcdfHeader:
+    """Dimensions and variables of a classic netCDF file, read from its first bytes.
+
+    Source: netCDF classic format specification (Unidata), versions 1, 2 and 5.
+    """
+
+    def __init__(self, head):
+        self.head, self.at, version = head, 4, head[3]
+        self.count_form = ">q" if version == 5 else ">i"
+        self.offset_form = ">i" if version == 1 else ">q"
+        self.records = self.take(self.count_form)
+        self.dimensions = [(self.name(), self.take(self.count_form)) for _ in self.listed()]
+        self.skip_attributes()
+        self.variables = [self.variable() for _ in self.listed()]
+
+    def take(self, form):
+        value = struct.unpack_from(form, self.head, self.at)[0]
+        self.at += struct.calcsize(form)
+        return value
+
+    def listed(self):
+        self.take(">i")
+        return range(self.take(self.count_form))
+
+    def name(self):
+        length = self.take(self.count_form)
+        text = self.head[self.at:self.at + length].decode("utf-8", "replace")
+        self.skip(length)
+        return text
+
+    def skip(self, length):
+        if length < 0:
+            raise struct.error
+        self.at += (length + 3) // 4 * 4
+
+    def skip_attributes(self):
+        for _ in self.listed():
+            self.name()
+            each = NETCDF_BYTES[self.take(">i")]
+            self.skip(each * self.take(self.count_form))
+
+    def variable(self):
+        """(name, bytes of it, or of one record of it; first byte; whether it has records)."""
+        name = self.name()
+        lengths = [self.dimensions[self.take(self.count_form)][1]
+                   for _ in range(self.take(self.count_form))]
+        self.skip_attributes()
+        size = NETCDF_BYTES[self.take(">i")]
+        self.take(self.count_form)
+        has_records = lengths[:1] == [0]
+        for length in lengths[1:] if has_records else lengths:
+            size *= length
+        return name, size, self.take(self.offset_form), has_records
+
+
+def check_netcdf_claims(path):
+    """Refuses what the netCDF library does not: it reads values behind a file's end as zeros."""
+    most = 1 << 24
+    size = os.path.getsize(path)
+    with open(path, "rb") as file:
+        head = file.read(most)
+    try:
+        header = NetcdfHeader(head)
+    except (struct.error, IndexError, KeyError) as error:
+        if size > most:
+            return
+        raise Refusal("is cut off or damaged within its netCDF header") from error
+    for name, length in header.dimensions:
+        if length > size:
+            raise Refusal(f"{name} says {length}, which {size} bytes cannot hold", LIMIT)
+    repeated = [each for _, each, _, has_records in header.variables if has_records]
+    record = repeated[0] if len(repeated) == 1 else sum((n + 3) // 4 * 4 for n in repeated)
+    for name, each, start, has_records in header.variables:
+        if has_records and header.records < 1:
+            continue
+        end = start + each + (record * (header.records - 1) if has_records else 0)
+        if end > size:
+            raise Refusal(f"is cut off: {name} ends at byte {end}, the file has {size} bytes")
+
+
 def read_exodus(path, send):
     if os.path.getsize(path) == 0:
         raise Refusal("is empty")
@@ -282,6 +365,8 @@ def read_exodus(path, send):
         magic = file.read(8)
     if not (magic.startswith(b"CDF") or magic.startswith(b"\x89HDF")):
         raise Refusal("is no Exodus file (neither netCDF nor HDF5)")
+    if magic.startswith(b"CDF"):
+        check_netcdf_claims(path)
     from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
     from vtkmodules.vtkIOExodus import vtkExodusIIReader
     from vtkmodules.util.numpy_support import vtk_to_numpy
