@@ -21,7 +21,7 @@ packages=(
     libgtest-dev libgmock-dev libbenchmark-dev libpng-dev
 )
 if [ "${1:-}" = --test ]; then
-    packages+=(chromium clang-format-14)
+    packages+=(chromium clang-format-14 glslang-tools)
 fi
 # Any Node.js from 18 on will do; Debian 12's own is 18.
 node_major=$(node --version 2>/dev/null | sed 's/^v\([0-9]*\).*/\1/' || true)

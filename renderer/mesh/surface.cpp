@@ -6,20 +6,26 @@
 
 namespace volcast::mesh {
 
+shading::Recipe surfaceRecipe(const SurfaceTraits& traits,
+                              std::vector<shading::Constant> constants) {
+    constants.insert(constants.end(), {{"kColoured", traits.coloured},
+                                       {"kHeadlight", traits.headlight},
+                                       {"kValuesAt", valuesAt(traits.association)}});
+    return {.evaluator = traits.coloured ? "mesh/surface_coloured.glsl" : "mesh/surface_plain.glsl",
+            .classify = traits.coloured ? "classify/transfer_function.glsl" : "",
+            .segment = "",
+            .model = "",
+            .constants = std::move(constants)};
+}
+
 Result<void> drawSurface(const DrawInputs& inputs) {
     const MeshBuffers& mesh = MeshBuffers::of(*inputs.meshGpu);
     const bool coloured = inputs.layer->coloured && inputs.field != nullptr;
-    std::vector<shading::Constant> constants = inputs.constants;
-    constants.insert(constants.end(), {{"kColoured", coloured},
-                                       {"kHeadlight", inputs.layer->headlight},
-                                       {"kValuesAt", valuesAt(inputs.association)}});
-    const auto program = inputs.programs->ray(
-        {.evaluator = coloured ? "mesh/surface_coloured.glsl" : "mesh/surface_plain.glsl",
-         .classify = coloured ? "classify/transfer_function.glsl" : "",
-         .segment = "",
-         .model = "",
-         .constants = std::move(constants)},
-        "mesh/surface.vert.glsl");
+    const auto program = inputs.programs->ray(surfaceRecipe({.coloured = coloured,
+                                                             .headlight = inputs.layer->headlight,
+                                                             .association = inputs.association},
+                                                            inputs.constants),
+                                              kSurfaceVertex);
     if (!program) return program.error();
     // From outside, the nearest boundary faces the eye; within the mesh it faces away.
     inputs.target->begin({.depth = gpu::DepthTest::kNearest,

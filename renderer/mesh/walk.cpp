@@ -21,28 +21,12 @@ constexpr int kMaxStepsConvex = 65000;
 constexpr int kMaxStepsListed = 8000;
 constexpr int kMaxDraws = 4096;  // Of one picture; 32 million cells on a ray.
 
-/// What a walk program must do beyond walking.
-struct Variant {
-    bool counts = false;   ///< Rays may need more steps than one draw has.
-    bool resumes = false;  ///< They go on where the last draw ended.
-};
-
-shading::Recipe walkRecipe(const DrawInputs& inputs, const Variant& variant) {
-    const auto& row = shading::kRayModels.at(static_cast<std::size_t>(inputs.layer->model));
-    const bool listed = !inputs.mesh->convex;
-    std::vector<shading::Constant> constants = inputs.constants;
-    constants.insert(constants.end(), {{"kValuesAt", valuesAt(inputs.association)},
-                                       {"kListed", listed},
-                                       {"kClipsAtStart", inputs.planeDepth <= 0.0},
-                                       {"kEarlyStop", inputs.plan->has(plan::kEarlyStop)},
-                                       {"kMaxSteps", listed ? kMaxStepsListed : kMaxStepsConvex},
-                                       {"kCounts", variant.counts},
-                                       {"kResumes", variant.resumes}});
-    return {.evaluator = "mesh/walk.glsl",
-            .classify = "classify/transfer_function.glsl",
-            .segment = row.integrates ? "segment/average.glsl" : "",
-            .model = std::string{row.chunk},
-            .constants = std::move(constants)};
+WalkTraits traitsOf(const DrawInputs& inputs) {
+    return {.model = inputs.layer->model,
+            .association = inputs.association,
+            .convex = inputs.mesh->convex,
+            .clipsAtStart = inputs.planeDepth <= 0.0,
+            .earlyStop = inputs.plan->has(plan::kEarlyStop)};
 }
 
 /// Bytes between two paused rays of `program`; their size depends on the ray model.
@@ -65,8 +49,10 @@ void drawPicture(const DrawInputs& inputs, const gpu::Program& program, const Wa
 
 /// Draws the rays that one draw could not finish, until none is left.
 Result<void> drawLongRays(const DrawInputs& inputs, WalkCache& cache) {
-    const auto program =
-        inputs.programs->ray(walkRecipe(inputs, {.counts = true, .resumes = true}));
+    WalkTraits traits = traitsOf(inputs);
+    traits.counts = true;
+    traits.resumes = true;
+    const auto program = inputs.programs->ray(walkRecipe(traits, inputs.constants));
     if (!program) return program.error();
     if (auto done = cache.bindPausedRays(*inputs.device, pausedRayBytes(**program)); !done) {
         return done;
@@ -86,6 +72,23 @@ Result<void> drawLongRays(const DrawInputs& inputs, WalkCache& cache) {
 
 }  // namespace
 
+shading::Recipe walkRecipe(const WalkTraits& traits, std::vector<shading::Constant> constants) {
+    const auto& row = shading::kRayModels.at(static_cast<std::size_t>(traits.model));
+    const bool listed = !traits.convex;
+    constants.insert(constants.end(), {{"kValuesAt", valuesAt(traits.association)},
+                                       {"kListed", listed},
+                                       {"kClipsAtStart", traits.clipsAtStart},
+                                       {"kEarlyStop", traits.earlyStop},
+                                       {"kMaxSteps", listed ? kMaxStepsListed : kMaxStepsConvex},
+                                       {"kCounts", traits.counts},
+                                       {"kResumes", traits.resumes}});
+    return {.evaluator = "mesh/walk.glsl",
+            .classify = "classify/transfer_function.glsl",
+            .segment = row.integrates ? "segment/average.glsl" : "",
+            .model = std::string{row.chunk},
+            .constants = std::move(constants)};
+}
+
 std::unique_ptr<WalkState> WalkState::create() {
     return std::make_unique<WalkCache>();
 }
@@ -95,7 +98,9 @@ Result<void> drawWalk(const DrawInputs& inputs, WalkState& state) {
     // A line crosses a cell once, so few cells cannot make a long ray; lists can be of any length.
     const bool mayBeLong =
         !inputs.mesh->convex || inputs.mesh->cells.size() > std::size_t{kMaxStepsConvex};
-    const auto program = inputs.programs->ray(walkRecipe(inputs, {.counts = mayBeLong}));
+    WalkTraits traits = traitsOf(inputs);
+    traits.counts = mayBeLong;
+    const auto program = inputs.programs->ray(walkRecipe(traits, inputs.constants));
     if (!program) return program.error();
     if (auto done = cache.prepare(inputs); !done) return done;
     if (mayBeLong) cache.clearCounts();

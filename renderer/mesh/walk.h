@@ -106,4 +106,32 @@ Result<void> drawWalk(const DrawInputs& inputs, WalkState& state);
 /// Errors: kShaderBuild.
 Result<void> drawSurface(const DrawInputs& inputs);
 
+/// What tells the programs of drawWalk() apart.
+struct WalkTraits {
+    scene::RayModel model = scene::RayModel::kVolume;
+    data::Association association = data::Association::kVertex;
+    bool convex = true;         ///< A line enters the mesh once at most.
+    bool clipsAtStart = false;  ///< Rays may start within the mesh.
+    bool earlyStop = true;
+    bool counts = false;   ///< Rays may need more steps than one draw has.
+    bool resumes = false;  ///< They go on where the last draw ended.
+};
+
+/// The program of drawWalk(). `constants`: as in DrawInputs.
+shading::Recipe walkRecipe(const WalkTraits& traits, std::vector<shading::Constant> constants);
+
+/// What tells the programs of drawSurface() apart.
+struct SurfaceTraits {
+    bool coloured = false;  ///< By the values of a field at `association`.
+    bool headlight = true;
+    data::Association association = data::Association::kVertex;
+};
+
+/// The vertex file of drawSurface()'s programs.
+inline constexpr const char* kSurfaceVertex = "mesh/surface.vert.glsl";
+
+/// The program of drawSurface(), behind kSurfaceVertex.
+shading::Recipe surfaceRecipe(const SurfaceTraits& traits,
+                              std::vector<shading::Constant> constants);
+
 }  // namespace volcast::mesh

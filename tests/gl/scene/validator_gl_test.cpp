@@ -1,0 +1,285 @@
+// Every program that can be drawn with passes the reference compiler for GLSL, glslangValidator:
+// Mesa and NVIDIA each take things that the other one, and the language, refuse.
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <map>
+#include <optional>
+#include <set>
+#include <sstream>
+#include <string>
+#include <sys/wait.h>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "renderer/mesh/shared.h"
+#include "renderer/mesh/walk.h"
+#include "renderer/plan/effects.h"
+#include "renderer/shading/embedded_chunks.h"
+#include "renderer/shading/glsl_scan.h"
+#include "renderer/shading/program_cache.h"
+#include "renderer/shading/ray_models.h"
+#include "renderer/volume/march.h"
+#include "tests/support/import_files.h"
+
+namespace volcast {
+namespace {
+
+using shading::Assembled;
+using shading::Constant;
+
+/// Bit `i` of `number`.
+bool bit(int number, int i) {
+    return (number >> i & 1) != 0;
+}
+
+/// Runs a command; its status and what it printed.
+std::pair<int, std::string> run(const std::string& command) {
+    std::FILE* pipe = ::popen((command + " 2>&1").c_str(), "r");
+    if (pipe == nullptr) return {-1, "popen failed"};
+    std::string printed;
+    for (int c = std::fgetc(pipe); c != EOF; c = std::fgetc(pipe)) {
+        printed.push_back(static_cast<char>(c));
+    }
+    const int status = ::pclose(pipe);
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, printed};
+}
+
+void replaceFirst(std::string& text, const std::string& from, const std::string& to) {
+    const std::size_t at = text.find(from);
+    if (at != std::string::npos) text.replace(at, from.size(), to);
+}
+
+/// One stage as it was written for the compiler.
+struct Stage {
+    std::string file;
+    std::string label;  ///< The chunks that it is made for.
+    Assembled assembled;
+};
+
+class Validator : public ::testing::Test {
+protected:
+    void SetUp() override {
+        if (run("command -v glslangValidator").first != 0) {
+            GTEST_SKIP() << "glslangValidator is not installed (Debian package glslang-tools)";
+        }
+    }
+
+    /// Runs the compiler over written stages; what it complains about, by chunk and line.
+    std::string complaint(const std::string& options, const std::vector<std::string>& files) {
+        std::string command = "cd '" + folder_.path() + "' && glslangValidator " + options;
+        for (const std::string& file : files) command += " " + file;
+        const auto [status, printed] = run(command);
+        if (status == 0) return {};
+        std::string mapped;
+        const Stage* stage = nullptr;
+        std::istringstream lines{printed};
+        for (std::string line; std::getline(lines, line);) {
+            // A file's complaints follow its name; where programs are linked, lines hold the name.
+            if (const auto found = stages_.find(line); found != stages_.end()) {
+                stage = &found->second;
+            } else if (const Stage* named = stageIn(line)) {
+                replaceFirst(line, named->file + ":", "0:");
+                mapped += named->label + ": " + named->assembled.translate(line) + "\n";
+            } else if (stage != nullptr && line.find("0:") != std::string::npos) {
+                mapped += stage->label + ": " + stage->assembled.translate(line) + "\n";
+            }
+        }
+        return mapped.empty() ? printed : mapped;
+    }
+
+    /// Writes a stage, the same text once; the name of its file. `suffix`: vert, frag, comp.
+    std::string add(const std::string& suffix, const std::string& label,
+                    const Result<Assembled>& assembled) {
+        if (!assembled) {
+            ADD_FAILURE() << assembled.error().message;
+            return {};
+        }
+        const auto [known, isNew] = fileOf_.try_emplace(suffix + assembled->source);
+        if (isNew) {
+            known->second = "stage" + std::to_string(fileOf_.size()) + "." + suffix;
+            folder_.write(known->second, assembled->source);
+            stages_[known->second] = {known->second, label, *assembled};
+        }
+        return known->second;
+    }
+
+    /// A ray program, or a pass that is made like one.
+    void addRay(const shading::Recipe& recipe, const std::string& vertex) {
+        const std::string label = recipe.evaluator + " + " + recipe.model;
+        mains_.insert({recipe.evaluator, vertex});
+        ++programs_;
+        pairs_.try_emplace(
+            vertex + " + " + label,
+            std::vector{
+                add("vert", vertex, shading::assembleFile(vertex, recipe.constants, chunks_)),
+                add("frag", label, shading::assemble(recipe, chunks_))});
+    }
+
+    void addPass(const std::string& vertex, const std::string& fragment,
+                 const std::vector<Constant>& constants) {
+        mains_.insert({vertex, fragment});
+        ++programs_;
+        pairs_.try_emplace(
+            vertex + " + " + fragment,
+            std::vector{
+                add("vert", vertex, shading::assembleFile(vertex, constants, chunks_)),
+                add("frag", fragment, shading::assembleFile(fragment, constants, chunks_))});
+    }
+
+    void addCompute(const std::string& file, const std::vector<Constant>& constants) {
+        mains_.insert(file);
+        ++programs_;
+        pairs_.try_emplace(
+            file, std::vector{add("comp", file, shading::assembleFile(file, constants, chunks_))});
+    }
+
+    /// All stages, each by itself.
+    [[nodiscard]] std::vector<std::string> files() const {
+        std::vector<std::string> names;
+        for (const auto& [name, stage] : stages_) names.push_back(name);
+        return names;
+    }
+
+    void addMarches();
+    void addWalks();
+    void addSurfaces();
+    void addOtherPasses();
+
+    // NOLINTBEGIN(readability-identifier-naming): members of a fixture
+    test::TempFolder folder_;
+    shading::ChunkSource chunks_ = shading::embeddedChunks();
+    std::set<std::string> mains_;  ///< Files with a main() that were compiled.
+    int programs_ = 0;
+    std::map<std::string, std::string> fileOf_;              ///< By suffix and text.
+    std::map<std::string, Stage> stages_;                    ///< By file.
+    std::map<std::string, std::vector<std::string>> pairs_;  ///< What is linked, by its chunks.
+
+private:
+    const Stage* stageIn(const std::string& line) const {
+        for (const auto& [name, stage] : stages_) {
+            if (line.find(" " + name + ":") != std::string::npos) return &stage;
+        }
+        return nullptr;
+    }
+    // NOLINTEND(readability-identifier-naming)
+};
+
+constexpr std::array kAssociations{data::Association::kVertex, data::Association::kCell,
+                                   data::Association::kCellVertex};
+
+void Validator::addMarches() {
+    for (std::size_t row = 0; row < shading::kRayModels.size(); ++row) {
+        if (!shading::kRayModels.at(row).onVolumes) continue;
+        for (int variant = 0; variant < 32; ++variant) {
+            plan::LayerPlan plan;
+            int effects = 0;
+            for (const char* effect :
+                 {plan::kInterpolation, plan::kEmptyBricks, plan::kEarlyStop}) {
+                plan.effects.push_back(
+                    {.name = effect, .on = bit(variant, effects++), .reason = "test"});
+            }
+            addRay(volume::marchRecipe(
+                       plan, static_cast<scene::RayModel>(row), bit(variant, 3),
+                       {{"kMapSearch", variant % 3}, {"kEndsAtSurfaces", bit(variant, 4)}}),
+                   shading::kFullScreenVertex);
+        }
+    }
+}
+
+void Validator::addWalks() {
+    for (std::size_t row = 0; row < shading::kRayModels.size(); ++row) {
+        if (!shading::kRayModels.at(row).onMeshes || shading::kRayModels.at(row).chunk.empty()) {
+            continue;
+        }
+        for (const data::Association association : kAssociations) {
+            for (int variant = 0; variant < 64; ++variant) {
+                if (bit(variant, 4) && !bit(variant, 3)) continue;  // Only counted rays go on.
+                addRay(mesh::walkRecipe(
+                           {.model = static_cast<scene::RayModel>(row),
+                            .association = association,
+                            .convex = bit(variant, 0),
+                            .clipsAtStart = bit(variant, 1),
+                            .earlyStop = bit(variant, 2),
+                            .counts = bit(variant, 3),
+                            .resumes = bit(variant, 4)},
+                           {{"kMapSearch", variant % 3}, {"kEndsAtSurfaces", bit(variant, 5)}}),
+                       shading::kFullScreenVertex);
+            }
+        }
+    }
+}
+
+void Validator::addSurfaces() {
+    for (const data::Association association : kAssociations) {
+        for (int variant = 0; variant < 8; ++variant) {
+            std::vector<Constant> constants{{"kEndsAtSurfaces", bit(variant, 2)}};
+            if (bit(variant, 0)) constants.push_back({"kMapSearch", variant % 3});
+            addRay(mesh::surfaceRecipe({.coloured = bit(variant, 0),
+                                        .headlight = bit(variant, 1),
+                                        .association = association},
+                                       std::move(constants)),
+                   mesh::kSurfaceVertex);
+        }
+    }
+}
+
+void Validator::addOtherPasses() {
+    for (const char* fragment : {"mesh/entry_face.frag.glsl", "mesh/entry_list.frag.glsl"}) {
+        addPass("mesh/boundary.vert.glsl", fragment, {{"kEndsAtSurfaces", false}});
+    }
+    for (const int place : {mesh::shared::kValuesAtVertices, mesh::shared::kValuesAtCells}) {
+        addCompute("mesh/transform.comp.glsl", {{"kValuesAt", place}});
+    }
+    addPass(shading::kFullScreenVertex, "lib/resolve.glsl", {});
+    addPass(shading::kFullScreenVertex, "volume/filter_probe.glsl", {});
+}
+
+TEST_F(Validator, EveryProgramIsGlslToAnIndependentCompiler) {
+    addMarches();
+    EXPECT_EQ(programs_, 64);
+    addWalks();
+    EXPECT_EQ(programs_, 64 + 288);
+    addSurfaces();
+    addOtherPasses();
+    EXPECT_GT(stages_.size(), 300U);
+    EXPECT_EQ(complaint("", files()), "");
+    for (const auto& [label, stages] : pairs_) EXPECT_EQ(complaint("-l", stages), "") << label;
+    std::set<std::string> all;
+    for (const shading::EmbeddedChunk& chunk : shading::embeddedChunkTable()) {
+        for (const auto& function : shading::functionDefinitions(chunk.text)) {
+            if (function.name == "main") all.emplace(chunk.path);
+        }
+    }
+    EXPECT_EQ(mains_, all) << "a file with a main() is not compiled here";
+}
+
+TEST_F(Validator, ComplaintsNameChunkAndLine) {
+    const shading::ChunkSource sound = chunks_;
+    int line = 0;
+    chunks_ = [&](std::string_view path) {
+        std::optional<std::string> text = sound(path);
+        if (text && path == "model/mip.glsl") {
+            line = 1 + static_cast<int>(std::count(text->begin(), text->end(), '\n'));
+            *text += "const float kBroken = nobodyKnows;\n";
+        }
+        return text;
+    };
+    addWalks();
+    ASSERT_GT(line, 0);
+    const std::string expected = "model/mip.glsl:" + std::to_string(line) + ": 'nobodyKnows'";
+    for (const char* options : {"", "-l"}) {
+        for (const auto& [label, stages] : pairs_) {
+            const std::string said = complaint(options, stages);
+            if (label.find("model/mip.glsl") == std::string::npos) {
+                EXPECT_EQ(said, "");
+            } else {
+                EXPECT_NE(said.find(expected), std::string::npos) << said;
+            }
+        }
+    }
+}
+
+}  // namespace
+}  // namespace volcast
