@@ -28,7 +28,7 @@ Mesh someMesh() {
 }
 
 Volume someVolume() {
-    std::vector<std::byte> voxels(20 * 18 * 2 * sizeof(float));
+    std::vector<std::byte> voxels(std::size_t{20} * 18 * 2 * sizeof(float));
     for (std::size_t i = 0; i < 720; ++i) {
         const auto value = static_cast<float>(i) * 0.5F;
         std::memcpy(voxels.data() + i * sizeof(float), &value, sizeof(float));
@@ -122,7 +122,7 @@ TEST(PackedDataset, VolumeComesBackBitwise) {
     const Volume volume = someVolume();
     const auto back = unpack(pack(volume).value());
     ASSERT_TRUE(back) << back.error().message;
-    const Volume& copy = std::get<Volume>(*back);
+    const auto& copy = std::get<Volume>(*back);
     EXPECT_EQ(copy.size, volume.size);
     EXPECT_EQ(copy.spacing, volume.spacing);
     EXPECT_EQ(copy.origin, volume.origin);

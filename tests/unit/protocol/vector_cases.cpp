@@ -130,7 +130,9 @@ void addMessages(std::vector<VectorCase>& cases, const std::string& kind,
                  const std::vector<std::pair<std::string, std::string>>& meanings) {
     for (const auto& [name, json] : meanings) {
         const std::string bytes = messageFrom<Message>(json).SerializeAsString();
-        cases.push_back({kind + "_" + name, kind, hexOf(std::as_bytes(std::span{bytes})), json});
+        std::string caseName = kind;
+        caseName.append("_").append(name);
+        cases.push_back({caseName, kind, hexOf(std::as_bytes(std::span{bytes})), json});
     }
 }
 

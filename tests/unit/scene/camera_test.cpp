@@ -29,7 +29,7 @@ TEST(Camera, XIsToTheRightWhenLookingAlongMinusZ) {
 TEST(Camera, OrbitTurnsByTheRightHandRule) {
     const Camera turned = orbit(Camera{.eye = {0, 0, 3}}, 90.0);
     EXPECT_NEAR(glm::length(turned.eye - glm::dvec3(3, 0, 0)), 0.0, 1e-12);
-    Camera around = Camera{.eye = {1, 2, 3}, .center = {4, -1, 2}, .up = {1, 2, 0.5}};
+    Camera around{.eye = {1, 2, 3}, .center = {4, -1, 2}, .up = {1, 2, 0.5}};
     const glm::dvec3 eye = around.eye;
     for (int i = 0; i < 10; ++i) around = orbit(around, 36.0);
     EXPECT_NEAR(glm::length(around.eye - eye), 0.0, 1e-12);
