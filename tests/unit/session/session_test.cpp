@@ -46,7 +46,7 @@ protected:
     void SetUp() override {
         CatalogueDesc desc;
         desc.importer = importCube;
-        catalogue = std::move(*Catalogue::create(std::move(desc), render));
+        catalogue = *Catalogue::create(std::move(desc), render);
         events = router.events();
         shared = std::make_unique<Shared>(Shared{.render = render,
                                                  .catalogue = *catalogue,
@@ -76,8 +76,7 @@ protected:
         const auto until = Clock::now() + std::chrono::seconds{30};
         while (Clock::now() < until) {
             while (const auto out = session->next(Clock::now())) {
-                const std::string said{reinterpret_cast<const char*>(out->head.data()),
-                                       out->head.size()};
+                std::string said{reinterpret_cast<const char*>(out->head.data()), out->head.size()};
                 if (said.find(text) != std::string::npos) return said;
             }
             session->tick(Clock::now());

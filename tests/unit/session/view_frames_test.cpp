@@ -23,7 +23,7 @@ protected:
     bool finish(std::uint64_t ofTag) {
         auto picture = std::make_shared<workers::Picture>();
         picture->size = {8, 4};
-        picture->rgba8.assign(8 * 4 * 4, static_cast<std::byte>(ofTag));
+        picture->rgba8.assign(std::size_t{8} * 4 * 4, static_cast<std::byte>(ofTag));
         workers::RenderedFrame frame;
         frame.tag = ofTag;
         frame.picture = picture;
