@@ -69,7 +69,7 @@ inline Outcome runVolcast(const std::vector<std::string>& arguments,
     desc.program = "/bin/sh";
     // The words travel as arguments, so that no shell looks at them.
     desc.arguments = {"-c",
-                      "out=$1; err=$2; shift 2; exec \"$@\" >\"$out\" 2>\"$err\"",
+                      R"(out=$1; err=$2; shift 2; exec "$@" >"$out" 2>"$err")",
                       "sh",
                       folder.file("out"),
                       folder.file("err"),

@@ -10,11 +10,10 @@ class VolumeFormats : public Import {
 protected:
     template <class T>
     static T voxel(const data::Volume& volume, glm::ivec3 at, std::size_t channel = 0) {
-        const auto index =
-            static_cast<std::size_t>(at.x + volume.size.x * (at.y + volume.size.y * at.z));
+        const int index = at.x + volume.size.x * (at.y + volume.size.y * at.z);
+        const std::size_t offset = static_cast<std::size_t>(index) * sizeof(T);
         T value{};
-        std::memcpy(&value, volume.channels.at(channel).voxels.data() + index * sizeof(T),
-                    sizeof(T));
+        std::memcpy(&value, volume.channels.at(channel).voxels.data() + offset, sizeof(T));
         return value;
     }
     template <class T>
