@@ -31,6 +31,7 @@ struct Family {
     Cell empty, cut, nan, absurd, kind, typed;
 };
 
+// NOLINTNEXTLINE(readability-identifier-naming): the name that GoogleTest looks for.
 void PrintTo(const Family& family, std::ostream* out) {
     *out << family.maker;
 }

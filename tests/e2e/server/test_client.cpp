@@ -180,8 +180,10 @@ double meanDifference(const Decoded& a, const Decoded& b) {
     const int pixels = a.width * a.height;
     for (int pixel = 0; pixel < pixels; ++pixel) {
         for (int channel = 0; channel < 3; ++channel) {
-            sum += std::abs(int{a.pixels[static_cast<std::size_t>(pixel * a.channels + channel)]} -
-                            int{b.pixels[static_cast<std::size_t>(pixel * b.channels + channel)]});
+            const int inA = pixel * a.channels + channel;
+            const int inB = pixel * b.channels + channel;
+            sum += std::abs(int{a.pixels[static_cast<std::size_t>(inA)]} -
+                            int{b.pixels[static_cast<std::size_t>(inB)]});
         }
     }
     return sum / (3.0 * pixels);
