@@ -1,5 +1,5 @@
 """VTU, legacy VTK, VTI and Exodus through VTK's readers. Modules are imported one by one: all of
-`vtk` takes a second."""
+`vtk` takes a second. Long because it is one program text: it travels as a whole into the child."""
 
 import re
 
