@@ -29,12 +29,17 @@ step() {
 # Passes on what a person wants to see: on a terminal one moving line, else every tenth line of a
 # compiler's counter and everything else that is short.
 progress() {
-    if [ -t 1 ]; then
-        awk '{ printf "\r\033[K    %.90s", $0; fflush() } END { printf "\r\033[K" }'
-    else
-        awk '/^\[[0-9]+\/[0-9]+\]/ { if (++n % 10 == 1) { print "    " $0; fflush() } next }
-             { if (length($0) < 200) { print "    " $0; fflush() } }'
-    fi
+    local line count=0
+    while IFS= read -r line || [ -n "$line" ]; do
+        if [ -t 1 ]; then
+            printf '\r\033[K    %.90s' "$line"
+        elif [[ $line =~ ^\[[0-9]+/[0-9]+\] ]]; then
+            if [ $((count++ % 10)) -eq 0 ]; then printf '    %s\n' "$line"; fi
+        elif [ ${#line} -lt 200 ]; then
+            printf '    %s\n' "$line"
+        fi
+    done
+    if [ -t 1 ]; then printf '\r\033[K'; fi
 }
 
 install_packages() { "$repo/deploy/dev/setup.sh" "$@"; }
