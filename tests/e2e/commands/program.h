@@ -14,31 +14,18 @@
 #include <gtest/gtest.h>
 
 #include "server/workers/child_process.h"
+#include "tests/support/temporary_folder.h"
 
 namespace volcast::test {
 
 /// A folder of one test's own.
-class Folder {
+class Folder : public support::TemporaryFolder {
 public:
-    Folder() {
-        std::string path = std::filesystem::temp_directory_path() / "volcast-test-XXXXXX";
-        EXPECT_NE(::mkdtemp(path.data()), nullptr);
-        path_ = path;
-    }
-    Folder(const Folder&) = delete;
-    Folder& operator=(const Folder&) = delete;
-    Folder(Folder&&) = delete;
-    Folder& operator=(Folder&&) = delete;
-    ~Folder() { std::filesystem::remove_all(path_); }
-
-    [[nodiscard]] std::string file(const std::string& name) const { return path_ / name; }
+    [[nodiscard]] std::string file(const std::string& name) const { return path() / name; }
     [[nodiscard]] std::string write(const std::string& name, const std::string& text) const {
-        std::ofstream{path_ / name} << text;
+        std::ofstream{path() / name} << text;
         return file(name);
     }
-
-private:
-    std::filesystem::path path_;
 };
 
 inline std::string contentOf(const std::string& path) {

@@ -9,6 +9,8 @@
 #include <sys/types.h>
 #include <vector>
 
+#include "tests/support/temporary_folder.h"
+
 namespace volcast::test {
 
 /// How long a test waits for what must happen. Slow machines are no failure.
@@ -17,20 +19,7 @@ inline constexpr std::chrono::seconds kPatience{60};
 /// Polls until `predicate` holds; false after kPatience.
 bool eventually(const std::function<bool()>& predicate);
 
-/// A folder of its own, removed at the end.
-class TemporaryFolder {
-public:
-    TemporaryFolder();
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-    TemporaryFolder(TemporaryFolder&&) = delete;
-    TemporaryFolder& operator=(TemporaryFolder&&) = delete;
-    ~TemporaryFolder();
-    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-
-private:
-    std::filesystem::path path_;
-};
+using support::TemporaryFolder;
 
 void writeFile(const std::filesystem::path& path, const std::string& content);
 

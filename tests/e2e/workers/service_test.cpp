@@ -9,6 +9,7 @@
 #include "renderer/worker/channel.h"
 #include "server/workers/child_process.h"
 #include "tests/e2e/workers/service_fixture.h"
+#include "tests/support/temporary_folder.h"
 #include "volcast/internal/v1/worker.pb.h"
 
 namespace volcast::test {
@@ -19,30 +20,15 @@ using std::chrono::milliseconds;
 using workers::RenderService;
 
 /// A folder of this test's own.
-class Folder {
+class Folder : public support::TemporaryFolder {
 public:
-    Folder() {
-        std::string path = fs::temp_directory_path() / "volcast-test-XXXXXX";
-        EXPECT_NE(::mkdtemp(path.data()), nullptr);
-        path_ = path;
-    }
-    Folder(const Folder&) = delete;
-    Folder& operator=(const Folder&) = delete;
-    Folder(Folder&&) = delete;
-    Folder& operator=(Folder&&) = delete;
-    ~Folder() { fs::remove_all(path_); }
-    [[nodiscard]] const fs::path& path() const { return path_; }
-
     /// A program that a test starts instead of the worker.
     [[nodiscard]] std::string script(const std::string& text) const {
-        const fs::path file = path_ / "program";
+        const fs::path file = path() / "program";
         std::ofstream{file} << "#!/bin/sh\n" << text << "\n";
         fs::permissions(file, fs::perms::owner_all);
         return file;
     }
-
-private:
-    fs::path path_;
 };
 
 Error creationError(const workers::RenderSettings& settings) {
