@@ -9,7 +9,7 @@
 #include "renderer/mesh/shared.h"
 #include "renderer/mesh/walk_cache.h"
 #include "renderer/plan/effects.h"
-#include "renderer/shading/ray_models.h"
+#include "renderer/scene/ray_models.h"
 
 namespace volcast::mesh {
 
@@ -73,7 +73,7 @@ Result<void> drawLongRays(const DrawInputs& inputs, WalkCache& cache) {
 }  // namespace
 
 shading::Recipe walkRecipe(const WalkTraits& traits, std::vector<shading::Constant> constants) {
-    const auto& row = shading::kRayModels.at(static_cast<std::size_t>(traits.model));
+    const scene::RayModelRow& row = scene::row(traits.model);
     const bool listed = !traits.convex;
     constants.insert(constants.end(), {{"kValuesAt", valuesAt(traits.association)},
                                        {"kListed", listed},
@@ -84,7 +84,7 @@ shading::Recipe walkRecipe(const WalkTraits& traits, std::vector<shading::Consta
                                        {"kResumes", traits.resumes}});
     return {.evaluator = "mesh/walk.glsl",
             .classify = "classify/transfer_function.glsl",
-            .segment = row.integrates ? "segment/average.glsl" : "",
+            .segment = traits.model == scene::RayModel::kVolume ? "segment/average.glsl" : "",
             .model = std::string{row.chunk},
             .constants = std::move(constants)};
 }

@@ -6,6 +6,7 @@
 #include "renderer/gpu/timer.h"
 #include "renderer/plan/effects.h"
 #include "renderer/scene/dataset_cache.h"
+#include "renderer/scene/ray_models.h"
 #include "renderer/scene/scene_diff.h"
 #include "renderer/scene/validate.h"
 #include "renderer/scene/view.h"
@@ -56,10 +57,6 @@ struct Frame {
 
 bool isOpaque(const LayerDraw& draw) {
     return draw.plan->evaluator == plan::Evaluator::kMeshRaster;
-}
-
-bool needsField(const Layer& layer) {
-    return layer.model != RayModel::kSurface || layer.coloured;
 }
 
 Result<void> checkTarget(PictureSize size, const FrameTarget& target) {
@@ -189,7 +186,8 @@ Work DeviceRenderer::workFor(const Frame& frame) const {
     }
     const SceneDiff changes = diff(view.scene, *frame.scene);
     if (changes.empty()) return Work::kNothing;
-    const bool onlyBackground = !changes.camera && !changes.order && changes.layers.empty();
+    const bool onlyBackground = !changes.camera && !changes.clipping && !changes.accuracy &&
+                                !changes.order && changes.layers.empty();
     return onlyBackground ? Work::kResolve : Work::kAll;
 }
 

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,37 +13,111 @@
 
 namespace volcast::scene {
 
-/// What a ray gathers. Each is one GLSL chunk and one row of renderer/shading/ray_models.h.
+/// What a ray gathers. Each is one GLSL chunk and one row of ray_models.h, in this order.
 enum class RayModel {
-    kSurface,  ///< Nearest boundary point of a mesh.
-    kMip,      ///< Colour of the largest value on the ray (voxels: MAX).
-    kVolume,   ///< Emission and absorption (voxels: ON).
+    kSurface,     ///< Nearest boundary point of a mesh.
+    kWireframe,   ///< The same with the edges of its faces.
+    kMip,         ///< Colour of the largest value on the ray (voxels: MAX).
+    kMinip,       ///< Colour of the smallest value on the ray.
+    kMipColour,   ///< Largest red, green and blue of C(f) on the ray, each by itself.
+    kXray,        ///< White through what absorbs: exp(-k int rho(g) ds).
+    kSplat,       ///< 2^exposure int C(f) ds.
+    kIsosurface,  ///< Nearest point whose value is one of a set of levels.
+    kVolume,      ///< Emission and absorption (voxels: ON).
 };
 
-/// How `volume` integrates one cell.
+/// How a ray's share of one cell is integrated; ray_models.h lists what serves which model.
 enum class Integrator {
-    kAuto,     ///< Whatever the plan finds best.
-    kAverage,  ///< Mean of both ends; exact where the field is constant in a cell.
+    kAuto,           ///< Whatever the plan finds best.
+    kAverage,        ///< volume: the map at the mean of both ends.
+    kLinearOpacity,  ///< volume: mean extinction, colour weighted as in a thin segment.
+    kPsiTable,       ///< volume: linear extinction and emission, weights from a table.
+    kPsi,            ///< volume: linear extinction and emission, in closed form.
+    kPreintegrated,  ///< volume: colour and extinction from a table over both ends.
+    kExact,          ///< Split where the map bends; all models.
+    kFront,          ///< xray, splat: the map at the front end.
+    kEnds,           ///< xray, splat, mip_colour: the map at both ends.
+};
+
+/// What brings rays and cells of a mesh together.
+enum class MeshEvaluator {
+    kAuto,             ///< Whatever the plan finds best.
+    kWalk,             ///< Rays walk from cell to cell.
+    kProjection,       ///< Cells are drawn by their faces towards the eye, exits are computed.
+    kProjectionFaces,  ///< Cells are drawn by all faces: only extremes of both ends.
 };
 
 /// How voxels are read between grid points.
 enum class Sampling { kNearest, kTrilinear };
 
+/// Turns a field's values into those that rays interpolate and maps are linear in. It is applied
+/// to the stored values, to control points, levels and intervals alike; all of these stay in the
+/// field's own unit in a scene.
+struct Scale {
+    enum class Kind {
+        kLinear,  ///< Values as they are; the domain only clamps.
+        kLog,     ///< log; the domain must be above 0.
+        kPower,   ///< ((v - min) / (max - min))^exponent.
+    };
+    Kind kind = Kind::kLinear;
+    float exponent = 1.0F;  ///< kPower only; > 0.
+    std::optional<data::Range>
+        domain{};  ///< Values outside are clamped to it; none: the field's range.
+    friend bool operator==(const Scale&, const Scale&) = default;
+};
+
+/// The values at which isosurfaces are shown.
+struct Levels {
+    enum class Spacing { kList, kLinear, kLog, kPower };
+    static constexpr int kMaxLevels = 256;
+
+    Spacing spacing = Spacing::kList;
+    std::vector<float> values;        ///< kList.
+    float first = 0.0F, last = 1.0F;  ///< Others: the ends, both included; kLog: > 0.
+    int count = 1;                    ///< Others.
+    float exponent = 2.0F;  ///< kPower: first + (last - first) (i / (count - 1))^exponent.
+    friend bool operator==(const Levels&, const Levels&) = default;
+};
+
+/// Which cells of a mesh are drawn: those whose value in a P0 field is one of `values`.
+struct CellMarkers {
+    std::string field;  ///< Empty: all cells.
+    std::vector<float> values;
+    friend bool operator==(const CellMarkers&, const CellMarkers&) = default;
+};
+
 /// One data model drawn with one ray model.
 struct Layer {
     std::string id;       ///< Unique in its scene; names the layer in diffs and errors.
     std::string dataset;  ///< Catalogue id.
-    std::string field;    ///< Name of a mesh field or voxel channel; empty: the first.
+    std::string field;    ///< f: name of a mesh field or voxel channel; empty: the first.
     int timeStep = 0;
     RayModel model = RayModel::kVolume;
-    data::TransferFunction map;
+    data::TransferFunction map;  ///< C of f; rho too where there is no second field.
+    Scale scale = {};            ///< Of `field`.
     bool visible = true;
-    // surface
-    bool coloured = false;          ///< C(f) instead of `surfaceColour`.
+    // a second field, g: rho(g) in volume and xray, C(g) of an isosurface
+    std::string densityField = {};           ///< Empty: f serves as g.
+    data::TransferFunction densityMap = {};  ///< Of g; no points: `map`.
+    Scale densityScale = {};
+    // what part of the data
+    std::optional<data::Range> interval{};  ///< Only where min <= f <= max; under any model.
+    CellMarkers markers = {};
+    // surface, wireframe, isosurface
+    bool coloured = false;          ///< Surface: C(f) instead of `surfaceColour`.
     glm::vec3 surfaceColour{0.8F};  ///< Linear RGB.
     bool headlight = true;          ///< c |n.w| instead of c.
-    // volume of a mesh
+    // wireframe
+    float edgeWidth = 1.0F;      ///< Pixels; > 0.
+    glm::vec3 edgeColour{0.0F};  ///< Linear RGB.
+    // isosurface
+    Levels levels = {};
+    // xray, splat
+    float extinctionScale = 1.0F;  ///< xray: k; >= 0.
+    float exposure = 0.0F;         ///< splat: stops.
+    // how a mesh is evaluated; kAuto: as the scene's `accuracy` asks
     Integrator integrator = Integrator::kAuto;
+    MeshEvaluator evaluator = MeshEvaluator::kAuto;
     // voxels
     double stepWorld = 0.0;  ///< World units; 0: half the smallest spacing.
     Sampling sampling = Sampling::kTrilinear;
@@ -50,13 +125,37 @@ struct Layer {
     friend bool operator==(const Layer&, const Layer&) = default;
 };
 
+/// Half a space: what is kept is where dot(normal, point) >= offset; world.
+struct ClipPlane {
+    glm::dvec3 normal{1.0, 0.0, 0.0};  ///< Need not have length 1.
+    double offset = 0.0;
+    friend bool operator==(const ClipPlane&, const ClipPlane&) = default;
+};
+
+/// What a picture is to be worth; for layers that name no integrator.
+struct Accuracy {
+    enum class Kind {
+        kAuto,  ///< Exact where that costs little more, as measured.
+        kFastest,
+        kExact,
+        kErrorBound,  ///< The cheapest whose measured error is at most `bound`, in 1/255.
+        kTimeBudget,  ///< The most accurate whose predicted time is at most `bound`, in ms.
+    };
+    Kind kind = Kind::kAuto;
+    double bound = 0.0;
+    friend bool operator==(const Accuracy&, const Accuracy&) = default;
+};
+
 /// All that decides a picture but its size. Host-side truth: GPU state is a cache of it.
 struct Scene {
     static constexpr std::size_t kMaxLayers = 16;
+    static constexpr std::size_t kMaxClipPlanes = 6;
 
     Camera camera;
     std::vector<Layer> layers;
     glm::vec4 background{0.0F, 0.0F, 0.0F, 1.0F};  ///< Linear RGB (not premultiplied) and opacity.
+    std::vector<ClipPlane> clipPlanes = {};  ///< Of all layers; what all of them keep is drawn.
+    Accuracy accuracy = {};
 
     friend bool operator==(const Scene&, const Scene&) = default;
 };

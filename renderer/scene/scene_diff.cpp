@@ -26,13 +26,21 @@ LayerDiff diff(const Layer* before, const Layer& after) {
         change.added = true;
         return change;
     }
-    change.field = before->field != after.field || before->timeStep != after.timeStep;
-    change.map = before->map != after.map;
+    change.field = before->field != after.field || before->timeStep != after.timeStep ||
+                   before->densityField != after.densityField || before->scale != after.scale ||
+                   before->densityScale != after.densityScale;
+    change.cells = before->markers != after.markers;
+    change.map = before->map != after.map || before->densityMap != after.densityMap ||
+                 before->levels != after.levels;
     change.program = before->model != after.model || before->integrator != after.integrator ||
-                     before->sampling != after.sampling || before->coloured != after.coloured ||
-                     before->headlight != after.headlight;
+                     before->evaluator != after.evaluator || before->sampling != after.sampling ||
+                     before->coloured != after.coloured || before->headlight != after.headlight ||
+                     before->interval.has_value() != after.interval.has_value();
     change.uniforms =
-        before->surfaceColour != after.surfaceColour || before->stepWorld != after.stepWorld;
+        before->surfaceColour != after.surfaceColour || before->stepWorld != after.stepWorld ||
+        before->interval != after.interval || before->edgeWidth != after.edgeWidth ||
+        before->edgeColour != after.edgeColour ||
+        before->extinctionScale != after.extinctionScale || before->exposure != after.exposure;
     return change;
 }
 
@@ -42,6 +50,8 @@ SceneDiff diff(const Scene& before, const Scene& after) {
     SceneDiff changes;
     changes.camera = before.camera != after.camera;
     changes.background = before.background != after.background;
+    changes.clipping = before.clipPlanes != after.clipPlanes;
+    changes.accuracy = before.accuracy != after.accuracy;
     const auto seenBefore = std::ranges::count_if(before.layers, &Layer::visible);
     const std::vector<std::string> kept = common(before, after);
     changes.order =
@@ -49,7 +59,7 @@ SceneDiff diff(const Scene& before, const Scene& after) {
     for (const Layer& layer : after.layers) {
         if (!layer.visible) continue;  // Nothing of a hidden layer is drawn.
         const LayerDiff change = diff(find(before, layer.id), layer);
-        if (change.added || change.field || change.map || change.program || change.uniforms) {
+        if (change.any()) {
             changes.layers.push_back(change);
         }
     }

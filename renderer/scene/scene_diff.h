@@ -11,21 +11,28 @@ namespace volcast::scene {
 struct LayerDiff {
     std::string id;
     bool added = false;     ///< New, or its dataset is another.
-    bool field = false;     ///< Field or time step: one buffer or texture.
-    bool map = false;       ///< Transfer function: one table.
+    bool field = false;     ///< Fields, scales or time step: one buffer or texture each.
+    bool cells = false;     ///< Which cells are drawn: a mesh of its own.
+    bool map = false;       ///< Transfer functions, levels: one table each.
     bool program = false;   ///< Ray model, integrator, sampling, colouring: another shader.
     bool uniforms = false;  ///< Numbers that fit the parameter block.
+
+    [[nodiscard]] bool any() const noexcept {
+        return added || field || cells || map || program || uniforms;
+    }
 };
 
 /// The difference of two scenes; empty where nothing has to be drawn again.
 struct SceneDiff {
     bool camera = false;
     bool background = false;
+    bool clipping = false;          ///< Clip planes: numbers in the parameter block.
+    bool accuracy = false;          ///< May change integrators.
     bool order = false;             ///< Layers moved in the list, removed or hidden.
     std::vector<LayerDiff> layers;  ///< Only layers with a change.
 
     [[nodiscard]] bool empty() const noexcept {
-        return !camera && !background && !order && layers.empty();
+        return !camera && !background && !clipping && !accuracy && !order && layers.empty();
     }
 };
 

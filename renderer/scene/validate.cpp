@@ -3,6 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <string>
+#include <vector>
+
+#include "renderer/scene/ray_models.h"
+#include "renderer/scene/scale.h"
 
 namespace volcast::scene {
 namespace {
@@ -15,8 +20,71 @@ bool finite(const glm::vec3& colour) {
     return std::isfinite(colour.r) && std::isfinite(colour.g) && std::isfinite(colour.b);
 }
 
-bool needsMap(const Layer& layer) {
-    return layer.model != RayModel::kSurface || layer.coloured;
+bool colours(const Layer& layer) {
+    const bool triangles = layer.model == RayModel::kSurface || layer.model == RayModel::kWireframe;
+    return !triangles || layer.coloured;
+}
+
+Error invalid(const std::string& field, const std::string& why) {
+    return fail(ErrorCode::kInvalidArgument, field + ": " + why, field);
+}
+
+Result<void> validateMap(const data::TransferFunction& map, const std::string& path) {
+    const Result<void> valid = data::validate(map);
+    if (valid) return {};
+    const std::string field = path + "." + valid.error().field;
+    return fail(valid.error().code, field + ": " + valid.error().message, field);
+}
+
+/// What serves what.
+Result<void> validateChoices(const Layer& layer, const std::string& path) {
+    if (layer.integrator != Integrator::kAuto &&
+        integratorRow(layer.model, layer.integrator) == nullptr) {
+        return fail(ErrorCode::kUnsupported,
+                    path + ".integrator: " + std::string{name(layer.integrator)} +
+                        " cannot serve the ray model " + std::string{name(layer.model)} +
+                        "; one of " + allowedIntegrators(layer.model) + " can",
+                    path + ".integrator");
+    }
+    if (!serves(layer.evaluator, layer.model, layer.integrator)) {
+        const bool faces = layer.evaluator == MeshEvaluator::kProjectionFaces;
+        return fail(ErrorCode::kUnsupported,
+                    path + ".evaluator: " + std::string{name(layer.evaluator)} +
+                        (faces ? " draws mip, minip and mip_colour by ends alone, not "
+                               : " draws what rays gather, not ") +
+                        std::string{name(layer.model)},
+                    path + ".evaluator");
+    }
+    return {};
+}
+
+Result<void> validateNumbers(const Layer& layer, const std::string& path) {
+    if (!(layer.edgeWidth > 0.0F && layer.edgeWidth <= 64.0F)) {
+        return invalid(path + ".edge_width",
+                       std::to_string(layer.edgeWidth) + " is not above 0 and at most 64 pixels");
+    }
+    if (!finite(layer.edgeColour)) return invalid(path + ".edge_colour", "is not finite");
+    if (!(layer.extinctionScale >= 0.0F && std::isfinite(layer.extinctionScale))) {
+        return invalid(path + ".extinction_scale",
+                       std::to_string(layer.extinctionScale) + " is not a number of 0 or more");
+    }
+    if (!(std::abs(layer.exposure) <= 64.0F)) {
+        return invalid(path + ".exposure",
+                       std::to_string(layer.exposure) + " stops are not between -64 and 64");
+    }
+    if (layer.interval &&
+        !(std::isfinite(layer.interval->min) && std::isfinite(layer.interval->max) &&
+          layer.interval->min <= layer.interval->max)) {
+        return invalid(path + ".interval", std::to_string(layer.interval->min) + " to " +
+                                               std::to_string(layer.interval->max) +
+                                               " is not a range of finite numbers in order");
+    }
+    if (!layer.markers.field.empty() && layer.markers.values.empty()) {
+        return invalid(path + ".markers.values",
+                       "no value is listed, so that no cell would be drawn");
+    }
+    if (layer.model == RayModel::kIsosurface) return validate(layer.levels, path + ".levels");
+    return {};
 }
 
 Result<void> validate(const Layer& layer, const std::string& path) {
@@ -35,17 +103,115 @@ Result<void> validate(const Layer& layer, const std::string& path) {
                     path + ".time_step: " + std::to_string(layer.timeStep) + " is negative",
                     path + ".time_step");
     }
-    if (layer.map.points.empty() && !needsMap(layer)) return {};
-    const Result<void> map = data::validate(layer.map);
-    if (map) return {};
-    const std::string field = path + ".transfer_function." + map.error().field;
-    return fail(map.error().code, field + ": " + map.error().message, field);
+    Result<void> valid = validateChoices(layer, path);
+    if (valid) valid = validateNumbers(layer, path);
+    if (valid && (colours(layer) || !layer.map.points.empty())) {
+        valid = validateMap(layer.map, path + ".transfer_function");
+    }
+    if (valid && !layer.densityMap.points.empty()) {
+        valid = validateMap(layer.densityMap, path + ".density_function");
+    }
+    return valid;
+}
+
+const data::FieldSummary* fieldNamed(const data::DatasetSummary& summary, const std::string& name) {
+    const auto found = std::ranges::find(summary.fields, name, &data::FieldSummary::name);
+    return found == summary.fields.end() ? nullptr : &*found;
+}
+
+Error noField(const Layer& layer, const data::DatasetSummary& summary, const std::string& name,
+              const std::string& path) {
+    std::string names;
+    for (const data::FieldSummary& field : summary.fields) {
+        names += (names.empty() ? "" : ", ") + field.name;
+    }
+    return fail(ErrorCode::kNotFound,
+                path + ": \"" + layer.dataset + "\" has no field \"" + name + "\"; it has " +
+                    (names.empty() ? "none" : names),
+                path);
+}
+
+/// Points, levels and intervals of a logarithmic scale must lie above 0 themselves.
+Result<void> validateScaled(const Scale& scale, const std::vector<float>& values,
+                            const std::string& path) {
+    if (scale.kind != Scale::Kind::kLog) return {};
+    for (const float value : values) {
+        if (value > 0.0F) continue;
+        return invalid(path, std::to_string(value) +
+                                 " has no logarithm; the scale of its field is "
+                                 "logarithmic");
+    }
+    return {};
+}
+
+std::vector<float> valuesOf(const data::TransferFunction& map) {
+    std::vector<float> values;
+    for (const data::ControlPoint& point : map.points) values.push_back(point.value);
+    return values;
+}
+
+Result<void> validateScales(const Layer& layer, const data::FieldSummary& f,
+                            const data::FieldSummary& g, const std::string& path) {
+    Result<void> valid = validate(layer.scale, f.range, path + ".scale");
+    if (valid) valid = validate(layer.densityScale, g.range, path + ".density_scale");
+    if (valid) {
+        valid = validateScaled(layer.scale, valuesOf(layer.map), path + ".transfer_function");
+    }
+    const data::TransferFunction& density =
+        layer.densityMap.points.empty() ? layer.map : layer.densityMap;
+    if (valid && !layer.densityField.empty()) {
+        valid = validateScaled(layer.densityScale, valuesOf(density), path + ".density_function");
+    }
+    if (valid && layer.model == RayModel::kIsosurface) {
+        valid = validateScaled(layer.scale, resolved(layer.levels), path + ".levels");
+    }
+    if (valid && layer.interval) {
+        valid = validateScaled(layer.scale, {layer.interval->min, layer.interval->max},
+                               path + ".interval");
+    }
+    return valid;
+}
+
+/// What only meshes have: several fields, markers, isosurfaces of fields at vertices.
+Result<void> validateMesh(const Layer& layer, const data::DatasetSummary& summary,
+                          const std::string& path) {
+    if (!layer.markers.field.empty()) {
+        const data::FieldSummary* marker = fieldNamed(summary, layer.markers.field);
+        if (marker == nullptr) {
+            return noField(layer, summary, layer.markers.field, path + ".markers.field");
+        }
+        if (marker->association != data::Association::kCell) {
+            return fail(
+                ErrorCode::kUnsupported,
+                path + ".markers.field: \"" + marker->name + "\" has no value for each cell",
+                path + ".markers.field");
+        }
+    }
+    if (!needsField(layer)) return {};
+    const data::FieldSummary* f =
+        layer.field.empty() ? &summary.fields.front() : fieldNamed(summary, layer.field);
+    const data::FieldSummary* g =
+        layer.densityField.empty() ? f : fieldNamed(summary, layer.densityField);
+    if (g == nullptr) {
+        return noField(layer, summary, layer.densityField, path + ".density_field");
+    }
+    if (layer.timeStep >= g->steps) {
+        return invalid(path + ".time_step", std::to_string(layer.timeStep) + " of \"" + g->name +
+                                                "\", which has " + std::to_string(g->steps));
+    }
+    if (layer.model == RayModel::kIsosurface && f->association == data::Association::kCell) {
+        return fail(ErrorCode::kUnsupported,
+                    path + ".field: \"" + f->name +
+                        "\" has one value a cell; an isosurface needs values that vary in cells",
+                    path + ".field");
+    }
+    return validateScales(layer, *f, *g, path);
 }
 
 Result<void> validateField(const Layer& layer, const data::DatasetSummary& summary,
                            const std::string& path) {
     if (summary.fields.empty()) {
-        if (!needsMap(layer)) return {};
+        if (!needsField(layer)) return {};
         return fail(ErrorCode::kInvalidArgument,
                     path + ".field: \"" + layer.dataset + "\" has no field to show",
                     path + ".field");
@@ -54,15 +220,38 @@ Result<void> validateField(const Layer& layer, const data::DatasetSummary& summa
                                            : std::ranges::find(summary.fields, layer.field,
                                                                &data::FieldSummary::name);
     if (field == summary.fields.end()) {
-        return fail(ErrorCode::kNotFound,
-                    path + ".field: \"" + layer.dataset + "\" has no field \"" + layer.field + "\"",
-                    path + ".field");
+        return noField(layer, summary, layer.field, path + ".field");
     }
     if (layer.timeStep >= field->steps) {
         return fail(ErrorCode::kInvalidArgument,
                     path + ".time_step: " + std::to_string(layer.timeStep) + " of \"" +
                         field->name + "\", which has " + std::to_string(field->steps),
                     path + ".time_step");
+    }
+    return {};
+}
+
+Result<void> validateRest(const Scene& scene) {
+    if (scene.clipPlanes.size() > Scene::kMaxClipPlanes) {
+        return fail(ErrorCode::kLimitExceeded,
+                    "clip_planes: " + std::to_string(scene.clipPlanes.size()) + ", at most " +
+                        std::to_string(Scene::kMaxClipPlanes),
+                    "clip_planes");
+    }
+    for (std::size_t i = 0; i < scene.clipPlanes.size(); ++i) {
+        const ClipPlane& plane = scene.clipPlanes[i];
+        const double length = glm::length(plane.normal);
+        const std::string path = "clip_planes[" + std::to_string(i) + "]";
+        if (!(length > 1e-18 && length < 1e18)) {
+            return invalid(path + ".normal", "is not a vector of finite length above 0");
+        }
+        if (!std::isfinite(plane.offset)) return invalid(path + ".offset", "is not finite");
+    }
+    const Accuracy& wish = scene.accuracy;
+    const bool bounded =
+        wish.kind == Accuracy::Kind::kErrorBound || wish.kind == Accuracy::Kind::kTimeBudget;
+    if (bounded && !(wish.bound > 0.0 && std::isfinite(wish.bound))) {
+        return invalid("accuracy.bound", std::to_string(wish.bound) + " is not above 0");
     }
     return {};
 }
@@ -81,6 +270,7 @@ Result<void> validate(const Scene& scene) {
     if (!finite(glm::vec3(scene.background))) {
         return fail(ErrorCode::kInvalidArgument, "background: is not finite", "background");
     }
+    if (const Result<void> rest = validateRest(scene); !rest) return rest.error();
     if (!(scene.background.a >= 0.0F && scene.background.a <= 1.0F)) {
         return fail(ErrorCode::kInvalidArgument, "background_transparency: is not between 0 and 1",
                     "background_transparency");
@@ -108,13 +298,17 @@ Result<void> validate(const Scene& scene, const Summaries& summaries) {
                         pathOf(i) + ".dataset: there is no dataset \"" + layer.dataset + "\"",
                         pathOf(i) + ".dataset");
         }
-        if (layer.model == RayModel::kSurface && !found->second.isMesh) {
+        if (!found->second.isMesh && !row(layer.model).onVolumes) {
             return fail(ErrorCode::kUnsupported,
-                        pathOf(i) + ".model: a voxel volume has no surface to draw",
+                        pathOf(i) + ".model: " + std::string{name(layer.model)} +
+                            " does not draw voxel volumes",
                         pathOf(i) + ".model");
         }
-        const Result<void> field = validateField(layer, found->second, pathOf(i));
-        if (!field) return field.error();
+        Result<void> valid = validateField(layer, found->second, pathOf(i));
+        if (valid && found->second.isMesh) {
+            valid = validateMesh(layer, found->second, pathOf(i));
+        }
+        if (!valid) return valid.error();
     }
     return {};
 }

@@ -4,14 +4,14 @@
 #include <cmath>
 
 #include "renderer/plan/effects.h"
-#include "renderer/shading/ray_models.h"
+#include "renderer/scene/ray_models.h"
 #include "renderer/shading/shared.h"
 
 namespace volcast::volume {
 
 shading::Recipe marchRecipe(const plan::LayerPlan& plan, scene::RayModel model,
                             bool filterInHardware, std::vector<shading::Constant> constants) {
-    const shading::RayModelRow& row = shading::kRayModels.at(static_cast<std::size_t>(model));
+    const scene::RayModelRow& row = scene::row(model);
     constants.insert(constants.end(), {{"kTrilinear", plan.has(plan::kInterpolation)},
                                        {"kFilterInHardware", filterInHardware},
                                        {"kSkipBricks", plan.has(plan::kEmptyBricks)},
@@ -20,7 +20,7 @@ shading::Recipe marchRecipe(const plan::LayerPlan& plan, scene::RayModel model,
                                        {"kMaxRaySamples", plan::kMaxRaySamples}});
     return {.evaluator = "volume/march.glsl",
             .classify = "classify/transfer_function.glsl",
-            .segment = row.integrates ? "segment/average.glsl" : "",
+            .segment = model == scene::RayModel::kVolume ? "segment/average.glsl" : "",
             .model = std::string{row.chunk},
             .constants = std::move(constants)};
 }

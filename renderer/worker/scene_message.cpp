@@ -1,9 +1,12 @@
 #include "renderer/worker/scene_message.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "renderer/scene/validate.h"
 
@@ -39,22 +42,145 @@ glm::vec3 colourFrom(const v1::Colour& message) {
     return {message.r(), message.g(), message.b()};
 }
 
-Result<scene::RayModel> modelFrom(v1::RayModel message, const string& field) {
-    switch (message) {
-        case v1::RAY_MODEL_UNSPECIFIED:
-        case v1::RAY_MODEL_VOLUME: return scene::RayModel::kVolume;
-        case v1::RAY_MODEL_SURFACE: return scene::RayModel::kSurface;
-        case v1::RAY_MODEL_MIP: return scene::RayModel::kMip;
-        default: return unknownEnumerator(field, message);
+/// One enumerator of ours and of the protocol.
+template <class Ours, class Theirs>
+struct Pair {
+    Ours ours;
+    Theirs theirs;
+};
+
+using scene::Integrator;
+using scene::MeshEvaluator;
+using scene::RayModel;
+
+constexpr std::array kModels{
+    Pair{RayModel::kVolume, v1::RAY_MODEL_VOLUME},
+    Pair{RayModel::kVolume, v1::RAY_MODEL_UNSPECIFIED},
+    Pair{RayModel::kSurface, v1::RAY_MODEL_SURFACE},
+    Pair{RayModel::kWireframe, v1::RAY_MODEL_WIREFRAME},
+    Pair{RayModel::kMip, v1::RAY_MODEL_MIP},
+    Pair{RayModel::kMinip, v1::RAY_MODEL_MINIP},
+    Pair{RayModel::kMipColour, v1::RAY_MODEL_MIP_COLOUR},
+    Pair{RayModel::kXray, v1::RAY_MODEL_XRAY},
+    Pair{RayModel::kSplat, v1::RAY_MODEL_SPLAT},
+    Pair{RayModel::kIsosurface, v1::RAY_MODEL_ISOSURFACE},
+};
+
+constexpr std::array kIntegrators{
+    Pair{Integrator::kAuto, v1::INTEGRATOR_AUTO},
+    Pair{Integrator::kAverage, v1::INTEGRATOR_AVERAGE},
+    Pair{Integrator::kLinearOpacity, v1::INTEGRATOR_LINEAR_OPACITY},
+    Pair{Integrator::kPsiTable, v1::INTEGRATOR_PSI_TABLE},
+    Pair{Integrator::kPsi, v1::INTEGRATOR_PSI},
+    Pair{Integrator::kPreintegrated, v1::INTEGRATOR_PREINTEGRATED},
+    Pair{Integrator::kExact, v1::INTEGRATOR_EXACT},
+    Pair{Integrator::kFront, v1::INTEGRATOR_FRONT},
+    Pair{Integrator::kEnds, v1::INTEGRATOR_ENDS},
+};
+
+constexpr std::array kEvaluators{
+    Pair{MeshEvaluator::kAuto, v1::MESH_EVALUATOR_AUTO},
+    Pair{MeshEvaluator::kWalk, v1::MESH_EVALUATOR_WALK},
+    Pair{MeshEvaluator::kProjection, v1::MESH_EVALUATOR_PROJECTION},
+    Pair{MeshEvaluator::kProjectionFaces, v1::MESH_EVALUATOR_PROJECTION_FACES},
+};
+
+constexpr std::array kScales{
+    Pair{scene::Scale::Kind::kLinear, v1::Scale::LINEAR},
+    Pair{scene::Scale::Kind::kLog, v1::Scale::LOG},
+    Pair{scene::Scale::Kind::kPower, v1::Scale::POWER},
+};
+
+constexpr std::array kSpacings{
+    Pair{scene::Levels::Spacing::kList, v1::Levels::LIST},
+    Pair{scene::Levels::Spacing::kLinear, v1::Levels::LINEAR},
+    Pair{scene::Levels::Spacing::kLog, v1::Levels::LOG},
+    Pair{scene::Levels::Spacing::kPower, v1::Levels::POWER},
+};
+
+constexpr std::array kAccuracies{
+    Pair{scene::Accuracy::Kind::kAuto, v1::Accuracy::AUTO},
+    Pair{scene::Accuracy::Kind::kFastest, v1::Accuracy::FASTEST},
+    Pair{scene::Accuracy::Kind::kExact, v1::Accuracy::EXACT},
+    Pair{scene::Accuracy::Kind::kErrorBound, v1::Accuracy::ERROR_BOUND},
+    Pair{scene::Accuracy::Kind::kTimeBudget, v1::Accuracy::TIME_BUDGET},
+};
+
+template <class Pairs, class Theirs>
+auto oursFrom(const Pairs& pairs, Theirs theirs, const string& field)
+    -> Result<decltype(pairs[0].ours)> {
+    for (const auto& pair : pairs) {
+        if (pair.theirs == theirs) return pair.ours;
     }
+    return unknownEnumerator(field, theirs);
 }
 
-Result<scene::Integrator> integratorFrom(v1::Integrator message, const string& field) {
-    switch (message) {
-        case v1::INTEGRATOR_AUTO: return scene::Integrator::kAuto;
-        case v1::INTEGRATOR_AVERAGE: return scene::Integrator::kAverage;
-        default: return unknownEnumerator(field, message);
+/// Every enumerator of ours has a row.
+template <class Pairs, class Ours>
+auto theirsFrom(const Pairs& pairs, Ours ours) {
+    return std::ranges::find_if(pairs, [ours](const auto& pair) { return pair.ours == ours; })
+        ->theirs;
+}
+
+Result<data::Range> rangeFrom(const v1::Range& message, const string& path) {
+    const Result<float> low = floatFrom(message.min(), path + ".min");
+    if (!low) return low.error();
+    const Result<float> high = floatFrom(message.max(), path + ".max");
+    if (!high) return high.error();
+    return data::Range{.min = *low, .max = *high};
+}
+
+template <class Message>
+Result<std::vector<float>> floatsFrom(const Message& values, int most, const string& path) {
+    if (values.size() > most) {
+        return fail(ErrorCode::kLimitExceeded,
+                    path + ": " + std::to_string(values.size()) + " values, at most " +
+                        std::to_string(most),
+                    path);
     }
+    std::vector<float> result;
+    for (int i = 0; i < values.size(); ++i) {
+        const Result<float> value = floatFrom(values.Get(i), path + "[" + std::to_string(i) + "]");
+        if (!value) return value.error();
+        result.push_back(*value);
+    }
+    return result;
+}
+
+Result<scene::Scale> scaleFrom(const v1::Scale& message, const string& path) {
+    const auto kind = oursFrom(kScales, message.kind(), path + ".kind");
+    if (!kind) return kind.error();
+    scene::Scale scale{.kind = *kind};
+    if (message.exponent() != 0.0) {
+        const auto exponent = floatFrom(message.exponent(), path + ".exponent");
+        if (!exponent) return exponent.error();
+        scale.exponent = *exponent;
+    }
+    if (!message.has_domain()) return scale;
+    const auto domain = rangeFrom(message.domain(), path + ".domain");
+    if (!domain) return domain.error();
+    scale.domain = *domain;
+    return scale;
+}
+
+Result<scene::Levels> levelsFrom(const v1::Levels& message, const string& path) {
+    const auto spacing = oursFrom(kSpacings, message.spacing(), path + ".spacing");
+    if (!spacing) return spacing.error();
+    auto values = floatsFrom(message.values(), scene::Levels::kMaxLevels, path + ".values");
+    if (!values) return std::move(values).error();
+    const auto first = floatFrom(message.first(), path + ".first");
+    if (!first) return first.error();
+    const auto last = floatFrom(message.last(), path + ".last");
+    if (!last) return last.error();
+    const auto exponent = floatFrom(message.exponent(), path + ".exponent");
+    if (!exponent) return exponent.error();
+    scene::Levels levels{.spacing = *spacing,
+                         .values = *std::move(values),
+                         .first = *first,
+                         .last = *last,
+                         .count = message.count()};
+    if (*exponent != 0.0F) levels.exponent = *exponent;
+    return levels;
 }
 
 Result<scene::Sampling> samplingFrom(v1::Sampling message, const string& field) {
@@ -89,11 +215,60 @@ Result<data::TransferFunction> mapFrom(const v1::TransferFunction& message, cons
     return map;
 }
 
+/// Everything that decides which part of the data is seen, and through what.
+Result<void> readSelection(const v1::Layer& message, const string& path, scene::Layer& layer) {
+    auto scale = scaleFrom(message.scale(), path + ".scale");
+    if (!scale) return std::move(scale).error();
+    layer.scale = *scale;
+    layer.densityField = message.density_field();
+    auto density = mapFrom(message.density_function(), path + ".density_function");
+    if (!density) return std::move(density).error();
+    layer.densityMap = *std::move(density);
+    auto densityScale = scaleFrom(message.density_scale(), path + ".density_scale");
+    if (!densityScale) return std::move(densityScale).error();
+    layer.densityScale = *densityScale;
+    if (message.has_interval()) {
+        const auto interval = rangeFrom(message.interval(), path + ".interval");
+        if (!interval) return interval.error();
+        layer.interval = *interval;
+    }
+    constexpr int kMaxMarkers = 4096;
+    auto markers = floatsFrom(message.markers().values(), kMaxMarkers, path + ".markers.values");
+    if (!markers) return std::move(markers).error();
+    layer.markers = {.field = message.markers().field(), .values = *std::move(markers)};
+    return {};
+}
+
+/// The parameters of single ray models.
+Result<void> readParameters(const v1::Layer& message, const string& path, scene::Layer& layer) {
+    auto levels = levelsFrom(message.levels(), path + ".levels");
+    if (!levels) return std::move(levels).error();
+    layer.levels = *std::move(levels);
+    if (message.has_edge_width()) {
+        const auto width = floatFrom(message.edge_width(), path + ".edge_width");
+        if (!width) return width.error();
+        layer.edgeWidth = *width;
+    }
+    if (message.has_edge_colour()) layer.edgeColour = colourFrom(message.edge_colour());
+    if (message.has_extinction_scale()) {
+        const auto scale = floatFrom(message.extinction_scale(), path + ".extinction_scale");
+        if (!scale) return scale.error();
+        layer.extinctionScale = *scale;
+    }
+    const auto exposure = floatFrom(message.exposure(), path + ".exposure");
+    if (!exposure) return exposure.error();
+    layer.exposure = *exposure;
+    if (message.has_surface_colour()) layer.surfaceColour = colourFrom(message.surface_colour());
+    return {};
+}
+
 Result<scene::Layer> layerFrom(const v1::Layer& message, const string& path) {
-    auto model = modelFrom(message.model(), path + ".model");
+    auto model = oursFrom(kModels, message.model(), path + ".model");
     if (!model) return std::move(model).error();
-    auto integrator = integratorFrom(message.integrator(), path + ".integrator");
+    auto integrator = oursFrom(kIntegrators, message.integrator(), path + ".integrator");
     if (!integrator) return std::move(integrator).error();
+    auto evaluator = oursFrom(kEvaluators, message.evaluator(), path + ".evaluator");
+    if (!evaluator) return std::move(evaluator).error();
     auto sampling = samplingFrom(message.sampling(), path + ".sampling");
     if (!sampling) return std::move(sampling).error();
     auto map = mapFrom(message.transfer_function(), path + ".transfer_function");
@@ -108,10 +283,32 @@ Result<scene::Layer> layerFrom(const v1::Layer& message, const string& path) {
                        .coloured = message.coloured(),
                        .headlight = !message.unlit(),
                        .integrator = *integrator,
+                       .evaluator = *evaluator,
                        .stepWorld = message.step_world(),
                        .sampling = *sampling};
-    if (message.has_surface_colour()) layer.surfaceColour = colourFrom(message.surface_colour());
+    Result<void> read = readSelection(message, path, layer);
+    if (read) read = readParameters(message, path, layer);
+    if (!read) return std::move(read).error();
     return layer;
+}
+
+/// Clip planes and the accuracy asked for.
+Result<void> readRest(const v1::Scene& message, scene::Scene& scene) {
+    const int planes = message.clip_planes_size();
+    if (planes > static_cast<int>(scene::Scene::kMaxClipPlanes)) {
+        return fail(ErrorCode::kLimitExceeded,
+                    "clip_planes: " + std::to_string(planes) + " planes, at most " +
+                        std::to_string(scene::Scene::kMaxClipPlanes),
+                    "clip_planes");
+    }
+    for (const v1::ClipPlane& plane : message.clip_planes()) {
+        scene.clipPlanes.push_back(
+            {.normal = vectorFrom(plane.normal()), .offset = plane.offset()});
+    }
+    const auto kind = oursFrom(kAccuracies, message.accuracy().kind(), "accuracy.kind");
+    if (!kind) return kind.error();
+    scene.accuracy = {.kind = *kind, .bound = message.accuracy().bound()};
+    return {};
 }
 
 Result<glm::vec4> backgroundFrom(const v1::Scene& message) {
@@ -123,15 +320,6 @@ Result<glm::vec4> backgroundFrom(const v1::Scene& message) {
             "background_transparency");
     }
     return glm::vec4(colourFrom(message.background()), static_cast<float>(1.0 - transparency));
-}
-
-v1::RayModel toMessage(scene::RayModel model) {
-    switch (model) {
-        case scene::RayModel::kSurface: return v1::RAY_MODEL_SURFACE;
-        case scene::RayModel::kMip: return v1::RAY_MODEL_MIP;
-        case scene::RayModel::kVolume: return v1::RAY_MODEL_VOLUME;
-    }
-    return v1::RAY_MODEL_UNSPECIFIED;
 }
 
 void put(v1::Vec3* message, const glm::dvec3& value) {
@@ -157,24 +345,72 @@ void put(v1::Camera* message, const scene::Camera& camera) {
     message->set_orthographic_height(camera.orthographicHeight);
 }
 
+void put(v1::TransferFunction* message, const data::TransferFunction& map) {
+    for (const data::ControlPoint& point : map.points) {
+        v1::ControlPoint* added = message->add_points();
+        added->set_value(point.value);
+        put(added->mutable_colour(), point.colour);
+        added->set_extinction(point.extinction);
+    }
+}
+
+void put(v1::Range* message, const data::Range& range) {
+    message->set_min(range.min);
+    message->set_max(range.max);
+}
+
+void put(v1::Scale* message, const scene::Scale& scale) {
+    message->set_kind(theirsFrom(kScales, scale.kind));
+    message->set_exponent(scale.exponent);
+    if (scale.domain) put(message->mutable_domain(), *scale.domain);
+}
+
+/// What stands at its default is left out.
+void putSelection(v1::Layer* message, const scene::Layer& layer) {
+    if (layer.scale != scene::Scale{}) put(message->mutable_scale(), layer.scale);
+    message->set_density_field(layer.densityField);
+    if (!layer.densityMap.points.empty()) {
+        put(message->mutable_density_function(), layer.densityMap);
+    }
+    if (layer.densityScale != scene::Scale{}) {
+        put(message->mutable_density_scale(), layer.densityScale);
+    }
+    if (layer.interval) put(message->mutable_interval(), *layer.interval);
+    if (layer.markers == scene::CellMarkers{}) return;
+    message->mutable_markers()->set_field(layer.markers.field);
+    for (const float value : layer.markers.values) message->mutable_markers()->add_values(value);
+}
+
+void putParameters(v1::Layer* message, const scene::Layer& layer) {
+    message->set_edge_width(layer.edgeWidth);
+    put(message->mutable_edge_colour(), layer.edgeColour);
+    message->set_extinction_scale(layer.extinctionScale);
+    message->set_exposure(layer.exposure);
+    if (layer.levels == scene::Levels{}) return;
+    v1::Levels* levels = message->mutable_levels();
+    levels->set_spacing(theirsFrom(kSpacings, layer.levels.spacing));
+    for (const float value : layer.levels.values) levels->add_values(value);
+    levels->set_first(layer.levels.first);
+    levels->set_last(layer.levels.last);
+    levels->set_count(layer.levels.count);
+    levels->set_exponent(layer.levels.exponent);
+}
+
 void put(v1::Layer* message, const scene::Layer& layer) {
     message->set_id(layer.id);
     message->set_dataset(layer.dataset);
     message->set_field(layer.field);
     message->set_time_step(layer.timeStep);
-    message->set_model(toMessage(layer.model));
-    for (const data::ControlPoint& point : layer.map.points) {
-        v1::ControlPoint* added = message->mutable_transfer_function()->add_points();
-        added->set_value(point.value);
-        put(added->mutable_colour(), point.colour);
-        added->set_extinction(point.extinction);
-    }
+    message->set_model(theirsFrom(kModels, layer.model));
+    put(message->mutable_transfer_function(), layer.map);
     message->set_hidden(!layer.visible);
     message->set_coloured(layer.coloured);
     put(message->mutable_surface_colour(), layer.surfaceColour);
     message->set_unlit(!layer.headlight);
-    message->set_integrator(layer.integrator == scene::Integrator::kAverage ? v1::INTEGRATOR_AVERAGE
-                                                                            : v1::INTEGRATOR_AUTO);
+    message->set_integrator(theirsFrom(kIntegrators, layer.integrator));
+    message->set_evaluator(theirsFrom(kEvaluators, layer.evaluator));
+    putSelection(message, layer);
+    putParameters(message, layer);
     message->set_step_world(layer.stepWorld);
     message->set_sampling(layer.sampling == scene::Sampling::kNearest ? v1::SAMPLING_NEAREST
                                                                       : v1::SAMPLING_TRILINEAR);
@@ -223,6 +459,7 @@ Result<scene::Scene> sceneFrom(const v1::Scene& message) {
     auto background = backgroundFrom(message);
     if (!background) return std::move(background).error();
     scene::Scene scene{.camera = *camera, .layers = {}, .background = *background};
+    if (Result<void> read = readRest(message, scene); !read) return std::move(read).error();
     for (int i = 0; i < message.layers_size(); ++i) {
         auto layer = layerFrom(message.layers(i), "layers[" + std::to_string(i) + "]");
         if (!layer) return std::move(layer).error();
@@ -238,6 +475,15 @@ v1::Scene toMessage(const scene::Scene& scene) {
     for (const scene::Layer& layer : scene.layers) put(message.add_layers(), layer);
     put(message.mutable_background(), glm::vec3(scene.background));
     message.set_background_transparency(1.0 - static_cast<double>(scene.background.a));
+    for (const scene::ClipPlane& plane : scene.clipPlanes) {
+        v1::ClipPlane* added = message.add_clip_planes();
+        put(added->mutable_normal(), plane.normal);
+        added->set_offset(plane.offset);
+    }
+    if (scene.accuracy != scene::Accuracy{}) {
+        message.mutable_accuracy()->set_kind(theirsFrom(kAccuracies, scene.accuracy.kind));
+        message.mutable_accuracy()->set_bound(scene.accuracy.bound);
+    }
     return message;
 }
 

@@ -12,6 +12,7 @@
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include "renderer/scene/ray_models.h"
 #include "renderer/worker/frame_message.h"
 #include "server/commands/cache_folder.h"
 #include "server/commands/files.h"
@@ -45,15 +46,6 @@ double median(std::vector<double> values) {
 /// Hundredths are enough, and more would only pretend.
 double rounded(double value) {
     return std::round(value * 100.0) / 100.0;
-}
-
-const char* modelName(scene::RayModel model) {
-    switch (model) {
-        case scene::RayModel::kSurface: return "surface";
-        case scene::RayModel::kMip: return "mip";
-        case scene::RayModel::kVolume: return "volume";
-    }
-    return "";
 }
 
 Result<workers::ImportedDataset> import(const RenderOptions& options, Progress& progress) {
@@ -127,20 +119,22 @@ void explain(const plan::FramePlan& plan) {
 json::object report(const RenderOptions& options, const workers::ImportedDataset& data,
                     const scene::Scene& scene, const workers::RenderedFrame& first,
                     const Times& times, const std::string& gl, double peakMb, double loadMs) {
-    json::object line{{"data", std::filesystem::path{options.dataset}.filename().string()},
-                      {"model", scene.layers.empty() ? "" : modelName(scene.layers[0].model)},
-                      {"size", {options.size[0], options.size[1]}},
-                      {"frames", options.frames},
-                      {"median_ms", rounded(median(times.draw))},
-                      {"min_ms", rounded(std::ranges::min(times.draw))},
-                      {"max_ms", rounded(std::ranges::max(times.draw))},
-                      {"cpu_ms", rounded(median(times.cpu))},
-                      {"first_ms", rounded(first.uploadMs + first.drawMs)},
-                      {"readback_ms", rounded(median(times.readback))},
-                      {"load_ms", rounded(loadMs)},
-                      {"peak_mb", rounded(peakMb)},
-                      {"gl", gl},
-                      {"plan", first.plan.id}};
+    json::object line{
+        {"data", std::filesystem::path{options.dataset}.filename().string()},
+        {"model",
+         scene.layers.empty() ? std::string{} : std::string{scene::name(scene.layers[0].model)}},
+        {"size", {options.size[0], options.size[1]}},
+        {"frames", options.frames},
+        {"median_ms", rounded(median(times.draw))},
+        {"min_ms", rounded(std::ranges::min(times.draw))},
+        {"max_ms", rounded(std::ranges::max(times.draw))},
+        {"cpu_ms", rounded(median(times.cpu))},
+        {"first_ms", rounded(first.uploadMs + first.drawMs)},
+        {"readback_ms", rounded(median(times.readback))},
+        {"load_ms", rounded(loadMs)},
+        {"peak_mb", rounded(peakMb)},
+        {"gl", gl},
+        {"plan", first.plan.id}};
     if (data.summary.isMesh) {
         line["cells"] = data.summary.cells;
     } else {

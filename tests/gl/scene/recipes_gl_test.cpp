@@ -3,7 +3,7 @@
 
 #include "renderer/plan/effects.h"
 #include "renderer/shading/program_cache.h"
-#include "renderer/shading/ray_models.h"
+#include "renderer/scene/ray_models.h"
 #include "renderer/shading/shared.h"
 #include "renderer/volume/march.h"
 #include "tests/support/gl_test.h"
@@ -20,8 +20,8 @@ protected:
 
 TEST_F(Recipes, EveryModelOfVolumesMarchesInEveryVariant) {
     int built = 0;
-    for (std::size_t row = 0; row < shading::kRayModels.size(); ++row) {
-        if (!shading::kRayModels[row].onVolumes) continue;
+    for (std::size_t row = 0; row < scene::rayModels().size(); ++row) {
+        if (!scene::rayModels()[row].onVolumes) continue;
         for (int variant = 0; variant < 32; ++variant) {
             plan::LayerPlan plan;
             int bit = 0;
@@ -66,7 +66,7 @@ TEST_F(Recipes, TheLayerBlockLiesInMemoryAsTheDriverSeesIt) {
 TEST_F(Recipes, ThePlansOfTheTableMatchTheEnumerators) {
     using scene::RayModel;
     const auto nameOf = [](RayModel model) {
-        return shading::kRayModels.at(static_cast<std::size_t>(model)).name;
+        return scene::rayModels()[static_cast<std::size_t>(model)].name;
     };
     EXPECT_EQ(nameOf(RayModel::kSurface), "surface");
     EXPECT_EQ(nameOf(RayModel::kMip), "mip");

@@ -19,7 +19,7 @@
 #include "renderer/shading/embedded_chunks.h"
 #include "renderer/shading/glsl_scan.h"
 #include "renderer/shading/program_cache.h"
-#include "renderer/shading/ray_models.h"
+#include "renderer/scene/ray_models.h"
 #include "renderer/volume/march.h"
 #include "tests/support/import_files.h"
 
@@ -170,8 +170,8 @@ constexpr std::array kAssociations{data::Association::kVertex, data::Association
                                    data::Association::kCellVertex};
 
 void Validator::addMarches() {
-    for (std::size_t row = 0; row < shading::kRayModels.size(); ++row) {
-        if (!shading::kRayModels.at(row).onVolumes) continue;
+    for (std::size_t row = 0; row < scene::rayModels().size(); ++row) {
+        if (!scene::rayModels()[row].onVolumes) continue;
         for (int variant = 0; variant < 32; ++variant) {
             plan::LayerPlan plan;
             int effects = 0;
@@ -189,8 +189,8 @@ void Validator::addMarches() {
 }
 
 void Validator::addWalks() {
-    for (std::size_t row = 0; row < shading::kRayModels.size(); ++row) {
-        if (!shading::kRayModels.at(row).onMeshes || shading::kRayModels.at(row).chunk.empty()) {
+    for (std::size_t row = 0; row < scene::rayModels().size(); ++row) {
+        if (!scene::rayModels()[row].onMeshes || scene::rayModels()[row].chunk.empty()) {
             continue;
         }
         for (const data::Association association : kAssociations) {

@@ -28,13 +28,31 @@ scene::Scene fullScene() {
                      .dataset = "mesh",
                      .field = "pressure",
                      .timeStep = 3,
-                     .model = scene::RayModel::kSurface,
+                     .model = scene::RayModel::kVolume,
                      .map = map,
+                     .scale = {.kind = scene::Scale::Kind::kPower, .exponent = 0.5F},
                      .visible = false,
+                     .densityField = "density",
+                     .densityMap = {{{.value = 2.0F, .extinction = 1.5F}}},
+                     .densityScale = {.kind = scene::Scale::Kind::kLog,
+                                      .domain = data::Range{.min = 0.5F, .max = 8.0F}},
+                     .interval = data::Range{.min = -0.5F, .max = 0.75F},
+                     .markers = {.field = "material", .values = {1.0F, 7.0F}},
                      .coloured = true,
                      .surfaceColour = {0.5F, 0.25F, 1.0F},
                      .headlight = false,
-                     .integrator = scene::Integrator::kAverage,
+                     .edgeWidth = 2.5F,
+                     .edgeColour = {0.25F, 0.5F, 0.125F},
+                     .levels = {.spacing = scene::Levels::Spacing::kPower,
+                                .values = {0.25F, 0.5F},
+                                .first = -1.0F,
+                                .last = 3.0F,
+                                .count = 5,
+                                .exponent = 3.0F},
+                     .extinctionScale = 0.5F,
+                     .exposure = -1.5F,
+                     .integrator = scene::Integrator::kPsi,
+                     .evaluator = scene::MeshEvaluator::kProjection,
                      .stepWorld = 0.0,
                      .sampling = scene::Sampling::kTrilinear},
                     {.id = "b",
@@ -50,6 +68,8 @@ scene::Scene fullScene() {
                      .integrator = scene::Integrator::kAuto,
                      .stepWorld = 0.125,
                      .sampling = scene::Sampling::kNearest}};
+    scene.clipPlanes = {{.normal = {0.0, 1.0, 0.5}, .offset = -0.25}};
+    scene.accuracy = {.kind = scene::Accuracy::Kind::kTimeBudget, .bound = 33.5};
     return scene;
 }
 

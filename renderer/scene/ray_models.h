@@ -1,0 +1,61 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "renderer/scene/scene.h"
+
+namespace volcast::scene {
+
+/// One way to integrate a ray's share of a cell, and the chunk that fills the slot `segment`.
+struct IntegratorRow {
+    Integrator integrator;
+    std::string_view name;   ///< As in plans, in the protocol and on the command line.
+    std::string_view chunk;  ///< Empty: the model needs none.
+};
+
+/// One ray model: its names, its chunk, and what it needs of a program. The only place that lists
+/// them; adding one is described in shaders/README.md.
+struct RayModelRow {
+    RayModel model;
+    std::string_view name;   ///< As in plans, in the protocol and on the command line.
+    std::string_view chunk;  ///< Fills the slot `model`; empty: drawn as triangles, not by rays.
+    bool opaque;             ///< Ends the rays of layers that are not.
+    bool ordered;            ///< Pieces must come front to back.
+    bool secondField;        ///< A second field has a meaning.
+    bool onMeshes;
+    bool onVolumes;
+    std::span<const IntegratorRow> integrators;  ///< From cheap to exact; the last is exact.
+};
+
+/// All ray models, in the order of RayModel.
+std::span<const RayModelRow> rayModels();
+const RayModelRow& row(RayModel model);
+
+/// "surface", "mip_colour", ...
+std::string_view name(RayModel model);
+/// "auto", "average", "psi_table", ...
+std::string_view name(Integrator integrator);
+/// "auto", "walk", "projection", "projection_faces".
+std::string_view name(MeshEvaluator evaluator);
+
+/// Nothing for a name that is not known.
+std::optional<RayModel> rayModelNamed(std::string_view name);
+std::optional<Integrator> integratorNamed(std::string_view name);
+std::optional<MeshEvaluator> evaluatorNamed(std::string_view name);
+
+/// The row of `integrator` among those that serve `model`, or null.
+const IntegratorRow* integratorRow(RayModel model, Integrator integrator);
+/// Whether `evaluator` can draw `model` with `integrator`; kAuto always can.
+bool serves(MeshEvaluator evaluator, RayModel model, Integrator integrator);
+
+/// "average, linear_opacity, ...": for messages.
+std::string allowedIntegrators(RayModel model);
+std::string allowedModels();
+
+/// The field and map that a ray of `layer` reads: a surface in one colour needs neither.
+bool needsField(const Layer& layer);
+
+}  // namespace volcast::scene
