@@ -26,24 +26,26 @@ constexpr std::array kExtremeIntegrators{
     IntegratorRow{Integrator::kEnds, "ends", "segment/largest_ends.glsl"},
     IntegratorRow{Integrator::kExact, "exact", "segment/largest_exact.glsl"}};
 
-// name, chunk; opaque, ordered, secondField, onMeshes, onVolumes; integrators
+// name, chunk; opaque, combine, secondField, onMeshes, onVolumes; integrators
 constexpr std::array kRayModels{
-    RayModelRow{RayModel::kSurface, "surface", "", true, false, false, true, false, kNoChoice},
-    RayModelRow{RayModel::kWireframe, "wireframe", "", true, false, false, true, false, kNoChoice},
-    RayModelRow{RayModel::kMip, "mip", "model/mip.glsl", false, false, false, true, true,
+    RayModelRow{RayModel::kSurface, "surface", "", true, Combine::kNearest, false, true, false,
                 kNoChoice},
-    RayModelRow{RayModel::kMinip, "minip", "model/minip.glsl", false, false, false, true, false,
+    RayModelRow{RayModel::kWireframe, "wireframe", "", true, Combine::kNearest, false, true, false,
                 kNoChoice},
-    RayModelRow{RayModel::kMipColour, "mip_colour", "model/mip_colour.glsl", false, false, false,
-                true, false, kExtremeIntegrators},
-    RayModelRow{RayModel::kXray, "xray", "model/xray.glsl", false, false, true, true, false,
+    RayModelRow{RayModel::kMip, "mip", "model/mip.glsl", false, Combine::kMax, false, true, true,
+                kNoChoice},
+    RayModelRow{RayModel::kMinip, "minip", "model/minip.glsl", false, Combine::kMin, false, true,
+                false, kNoChoice},
+    RayModelRow{RayModel::kMipColour, "mip_colour", "model/mip_colour.glsl", false, Combine::kMax,
+                false, true, false, kExtremeIntegrators},
+    RayModelRow{RayModel::kXray, "xray", "model/xray.glsl", false, Combine::kSum, true, true, false,
                 kLineIntegrators},
-    RayModelRow{RayModel::kSplat, "splat", "model/splat.glsl", false, false, false, true, false,
-                kLineIntegrators},
-    RayModelRow{RayModel::kIsosurface, "isosurface", "model/isosurface.glsl", true, false, true,
-                true, false, kNoChoice},
-    RayModelRow{RayModel::kVolume, "volume", "model/volume.glsl", false, true, true, true, true,
-                kVolumeIntegrators}};
+    RayModelRow{RayModel::kSplat, "splat", "model/splat.glsl", false, Combine::kSum, false, true,
+                false, kLineIntegrators},
+    RayModelRow{RayModel::kIsosurface, "isosurface", "model/isosurface.glsl", true,
+                Combine::kNearest, true, true, false, kNoChoice},
+    RayModelRow{RayModel::kVolume, "volume", "model/volume.glsl", false, Combine::kUnder, true,
+                true, true, kVolumeIntegrators}};
 
 struct EvaluatorName {
     MeshEvaluator evaluator;

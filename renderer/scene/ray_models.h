@@ -16,6 +16,16 @@ struct IntegratorRow {
     std::string_view chunk;  ///< Empty: the model needs none.
 };
 
+/// How what a ray gathered in two pieces becomes one; each row is a state of blending too
+/// (renderer/mesh/README.md has the table).
+enum class Combine {
+    kNearest,  ///< The nearer one, by depth.
+    kMax,      ///< The larger, each channel by itself.
+    kMin,      ///< The smaller, each channel by itself.
+    kSum,
+    kUnder,  ///< The nearer over the farther, premultiplied: pieces must come in order.
+};
+
 /// One ray model: its names, its chunk, and what it needs of a program. The only place that lists
 /// them; adding one is described in shaders/README.md.
 struct RayModelRow {
@@ -23,8 +33,8 @@ struct RayModelRow {
     std::string_view name;   ///< As in plans, in the protocol and on the command line.
     std::string_view chunk;  ///< Fills the slot `model`; empty: drawn as triangles, not by rays.
     bool opaque;             ///< Ends the rays of layers that are not.
-    bool ordered;            ///< Pieces must come front to back.
-    bool secondField;        ///< A second field has a meaning.
+    Combine combine;
+    bool secondField;  ///< A second field has a meaning.
     bool onMeshes;
     bool onVolumes;
     std::span<const IntegratorRow> integrators;  ///< From cheap to exact; the last is exact.
