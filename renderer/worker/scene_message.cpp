@@ -241,9 +241,11 @@ Result<void> readSelection(const v1::Layer& message, const string& path, scene::
 
 /// The parameters of single ray models.
 Result<void> readParameters(const v1::Layer& message, const string& path, scene::Layer& layer) {
-    auto levels = levelsFrom(message.levels(), path + ".levels");
-    if (!levels) return std::move(levels).error();
-    layer.levels = *std::move(levels);
+    if (message.has_levels()) {
+        auto levels = levelsFrom(message.levels(), path + ".levels");
+        if (!levels) return std::move(levels).error();
+        layer.levels = *std::move(levels);
+    }
     if (message.has_edge_width()) {
         const auto width = floatFrom(message.edge_width(), path + ".edge_width");
         if (!width) return width.error();
