@@ -5,8 +5,8 @@
 
 #include <epoxy/gl.h>
 
-#include "renderer/mesh/view_block.h"
-#include "renderer/shading/shared.h"
+#include "renderer/mesh/mesh_buffers.h"
+#include "renderer/mesh/shared.h"
 
 namespace volcast::mesh {
 
@@ -16,64 +16,26 @@ constexpr std::size_t kNodeBytes = sizeof(glm::ivec4);
 constexpr std::size_t kFirstNodes = std::size_t{1} << 16;
 constexpr const char* kBoundaryVertex = "mesh/boundary.vert.glsl";
 
-bool holds(const data::Box& box, const glm::dvec3& point) {
-    return glm::all(glm::lessThanEqual(box.min, point)) &&
-           glm::all(glm::lessThanEqual(point, box.max));
-}
-
 }  // namespace
 
 Result<void> WalkCache::prepare(const DrawInputs& inputs) {
-    const MeshBuffers& mesh = MeshBuffers::of(*inputs.meshGpu);
-    const int place = valuesAt(inputs.association);
-    // Only values at vertices travel with the vertices.
-    const bool carried = place == shared::kValuesAtVertices && inputs.field != nullptr;
-    const Key key{.mesh = mesh.serial,
-                  .field = carried ? FieldBuffer::of(*inputs.field).serial : 0,
-                  .camera = inputs.cameraVersion,
-                  .valuesAt = carried ? place : shared::kValuesAtCells};
-    if (key == key_ && heads_.size() == inputs.size) return {};
-    const bool sameView =
-        key.mesh == key_.mesh && key.camera == key_.camera && heads_.size() == inputs.size;
+    if (auto done = camera_.prepare(inputs); !done) return done;
+    if (entriesOf_ == camera_.version()) return {};
+    entriesOf_ = 0;  // Until all of it is made, nothing of it counts.
     if (auto done = allocate(inputs); !done) return done;
-    if (!sameView) {
-        if (auto done = lookFrom(inputs); !done) return done;
-    }
-    if (auto done = transformVertices(inputs); !done) return done;
-    if (!sameView) {
-        if (auto done = findEntries(inputs); !done) return done;
-    }
-    key_ = key;
+    if (auto done = findEntries(inputs); !done) return done;
+    entriesOf_ = camera_.version();
     return {};
 }
 
 Result<void> WalkCache::allocate(const DrawInputs& inputs) {
     gpu::Device& device = *inputs.device;
-    const MeshBuffers& mesh = MeshBuffers::of(*inputs.meshGpu);
-    const auto make = [&device](gpu::Buffer& buffer, const gpu::BufferDesc& desc) -> Result<void> {
-        if (buffer.valid() && buffer.bytes() == desc.bytes) return {};
-        auto made = gpu::Buffer::create(device, desc);
-        if (!made) return made.error();
-        buffer = std::move(*made);
-        return {};
-    };
-    key_ = {};  // Until all of it is made, nothing of it counts.
-    if (auto done = make(
-            block_, {.bytes = sizeof(shared::MeshBlock), .updatable = true, .label = "mesh block"});
-        !done) {
-        return done;
-    }
-    if (auto done = make(vertices_, {.bytes = mesh.vertexCount * sizeof(glm::vec4),
-                                     .texels = gpu::TexelFormat::kRgba32F,
-                                     .label = "camera space vertices"});
-        !done) {
-        return done;
-    }
-    if (auto done =
-            make(counts_,
-                 {.bytes = 2 * sizeof(std::uint32_t), .updatable = true, .label = "walk counts"});
-        !done) {
-        return done;
+    if (!counts_.valid()) {
+        auto counts = gpu::Buffer::create(
+            device,
+            {.bytes = 2 * sizeof(std::uint32_t), .updatable = true, .label = "walk counts"});
+        if (!counts) return counts.error();
+        counts_ = std::move(*counts);
     }
     if (heads_.size() == inputs.size) return {};
     auto heads = gpu::Texture2D::create(
@@ -86,45 +48,6 @@ Result<void> WalkCache::allocate(const DrawInputs& inputs) {
     heads_ = std::move(*heads);
     paused_ = {};  // Of another size.
     return {};
-}
-
-Result<void> WalkCache::lookFrom(const DrawInputs& inputs) {
-    const MeshBuffers& mesh = MeshBuffers::of(*inputs.meshGpu);
-    const glm::dvec3 eye = inputs.camera->eye - inputs.mesh->origin;
-    std::optional<Place> start;
-    if (inputs.camera->projection == scene::Projection::kPerspective && inputs.planeDepth <= 0.0 &&
-        holds(mesh.bounds, eye)) {
-        start = locate(*inputs.mesh, eye, startCell_ < mesh.cellCount ? startCell_ : -1);
-    }
-    startCell_ = start ? start->cell : -1;
-    const glm::ivec4 startVertices =
-        start ? inputs.mesh->cells[static_cast<std::size_t>(start->cell)] : glm::ivec4{0};
-    const shared::MeshBlock block = viewBlock(mesh, inputs.mesh->origin, *inputs.camera,
-                                              inputs.planeDepth, inputs.size, start, startVertices);
-    block_.update(0, std::as_bytes(std::span{&block, 1}));
-    return {};
-}
-
-Result<void> WalkCache::transformVertices(const DrawInputs& inputs) {
-    const MeshBuffers& mesh = MeshBuffers::of(*inputs.meshGpu);
-    const bool carried =
-        inputs.field != nullptr && inputs.association == data::Association::kVertex;
-    const auto program = inputs.programs->compute(
-        "mesh/transform.comp.glsl",
-        {{"kValuesAt", carried ? shared::kValuesAtVertices : shared::kValuesAtCells}});
-    if (!program) return program.error();
-    (*program)->use();
-    block_.bindUniform(shading::shared::kMeshBinding);
-    mesh.positions.bindTexels(shared::kPositionUnit);
-    if (carried) FieldBuffer::of(*inputs.field).values.bindTexels(shared::kFieldUnit);
-    vertices_.bindStorage(shared::kVertexStorage);
-    constexpr unsigned kGroupSize = 128;  // As in the shader.
-    constexpr unsigned kGroupsAcross = 16384;
-    const unsigned groups = (static_cast<unsigned>(mesh.vertexCount) + kGroupSize - 1) / kGroupSize;
-    inputs.device->dispatch(std::min(groups, kGroupsAcross),
-                            (groups + kGroupsAcross - 1) / kGroupsAcross, 1);
-    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
-    return inputs.device->check("camera space vertices");
 }
 
 Result<void> WalkCache::findEntries(const DrawInputs& inputs) {
@@ -154,8 +77,8 @@ Result<void> WalkCache::drawEntries(const DrawInputs& inputs) {
     headTarget_.begin({});
     headTarget_.clearInteger(0, -1);
     (*program)->use();
-    block_.bindUniform(shading::shared::kMeshBinding);
-    vertices_.bindTexels(shared::kVertexUnit);
+    camera_.bindBlock();
+    camera_.bindVertices();
     mesh.boundary.bindTexels(shared::kBoundaryUnit);
     if (!convex) {
         heads_.bindImage(shared::kHeadImage);
@@ -181,8 +104,8 @@ Result<void> WalkCache::growNodes(gpu::Device& device, std::size_t nodes) {
 
 void WalkCache::bind(const DrawInputs& inputs) const {
     const MeshBuffers& mesh = MeshBuffers::of(*inputs.meshGpu);
-    block_.bindUniform(shading::shared::kMeshBinding);
-    vertices_.bindTexels(shared::kVertexUnit);
+    camera_.bindBlock();
+    camera_.bindVertices();
     mesh.cells.bindTexels(shared::kCellUnit);
     mesh.boundary.bindTexels(shared::kBoundaryUnit);
     if (inputs.field != nullptr) {

@@ -5,7 +5,7 @@
 #include "renderer/gpu/buffer.h"
 #include "renderer/gpu/target.h"
 #include "renderer/gpu/texture2d.h"
-#include "renderer/mesh/locate.h"
+#include "renderer/mesh/camera_vertices.h"
 #include "renderer/mesh/walk.h"
 
 namespace volcast::mesh {
@@ -34,26 +34,17 @@ public:
     static WalkCache& of(WalkState& state) { return static_cast<WalkCache&>(state); }
 
 private:
-    /// What the contents were made from.
-    struct Key {
-        std::uint64_t mesh = 0, field = 0, camera = 0;
-        int valuesAt = -1;
-        friend bool operator==(const Key&, const Key&) = default;
-    };
-
     Result<void> allocate(const DrawInputs& inputs);
-    Result<void> lookFrom(const DrawInputs& inputs);
-    Result<void> transformVertices(const DrawInputs& inputs);
     Result<void> findEntries(const DrawInputs& inputs);
     Result<void> drawEntries(const DrawInputs& inputs);
     Result<void> growNodes(gpu::Device& device, std::size_t nodes);
     [[nodiscard]] std::uint32_t readCount(std::size_t index) const;
 
-    Key key_;
-    gpu::Buffer block_, vertices_, nodes_, counts_, paused_;
+    CameraVertices camera_;
+    std::uint64_t entriesOf_ = 0;  ///< The version of `camera_` whose entries these are.
+    gpu::Buffer nodes_, counts_, paused_;
     gpu::Texture2D heads_;
     gpu::Target headTarget_;
-    int startCell_ = -1;  ///< Where the search for the eye's cell starts next time.
 };
 
 }  // namespace volcast::mesh
