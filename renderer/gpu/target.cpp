@@ -14,6 +14,19 @@ void setEnabled(GLenum capability, bool on) {
     }
 }
 
+/// Equation and factors of `blend`; GL_MAX and GL_MIN have no factors.
+void setBlend(Blend blend) {
+    switch (blend) {
+        case Blend::kNone: return;
+        case Blend::kOver: glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA); break;
+        case Blend::kAdd: glBlendFunc(GL_ONE, GL_ONE); break;
+        case Blend::kUnder: glBlendFunc(GL_ONE_MINUS_DST_ALPHA, GL_ONE); break;
+        case Blend::kMax: glBlendEquation(GL_MAX); return;
+        case Blend::kMin: glBlendEquation(GL_MIN); return;
+    }
+    glBlendEquation(GL_FUNC_ADD);
+}
+
 }  // namespace
 
 Result<Target> Target::create(Device& device, const char* label,
@@ -55,12 +68,7 @@ void Target::begin(const PassState& state) const {
     glBindFramebuffer(GL_FRAMEBUFFER, handle_.name());
     glViewport(0, 0, size_.x, size_.y);
     setEnabled(GL_BLEND, state.blend != Blend::kNone);
-    if (state.blend == Blend::kOver) {
-        glBlendEquation(GL_FUNC_ADD);
-        glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-    } else if (state.blend == Blend::kMax) {
-        glBlendEquation(GL_MAX);
-    }
+    setBlend(state.blend);
     const bool depth = state.depth != DepthTest::kNone;
     setEnabled(GL_DEPTH_TEST, depth);
     glDepthFunc(GL_GREATER);

@@ -12,8 +12,11 @@ namespace volcast::gpu {
 
 enum class Blend {
     kNone,
-    kOver,  ///< Premultiplied: source over what is there.
-    kMax,   ///< The larger of both, each channel by itself.
+    kOver,   ///< Premultiplied: source over what is there.
+    kMax,    ///< The larger of both, each channel by itself.
+    kMin,    ///< The smaller of both, each channel by itself.
+    kAdd,    ///< The sum of both.
+    kUnder,  ///< Premultiplied: source under what is there; draws come front to back.
 };
 enum class DepthTest {
     kNone,

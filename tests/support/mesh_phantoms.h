@@ -68,6 +68,28 @@ inline data::MeshInput latticeMesh(const LatticeDesc& desc) {
     return mesh;
 }
 
+/// Cells around the z axis that hide one another in a circle, as seen from the origin: a ring of
+/// triangles between two polygons, turned against each other like the blades of a shutter, with a
+/// common fourth vertex on the axis.
+inline data::MeshInput shutterMesh() {
+    constexpr int kBlades = 6;
+    constexpr double kTwist = 1.3;  // Radians; more than a polygon's side, so that all edges slant.
+    data::MeshInput mesh;
+    mesh.points.push_back({0, 0, 2});
+    for (int i = 0; i < kBlades; ++i) {
+        const double angle = 2.0 * 3.14159265358979 * i / kBlades;
+        mesh.points.push_back({std::cos(angle), std::sin(angle), 0.0});
+        mesh.points.push_back(4.0 *
+                              glm::dvec3{std::cos(angle + kTwist), std::sin(angle + kTwist), 0.0});
+    }
+    for (std::int64_t i = 0; i < kBlades; ++i) {
+        const std::int64_t next = (i + 1) % kBlades;
+        mesh.cells.push_back({0, 1 + 2 * i, 1 + 2 * next, 2 + 2 * i});
+        mesh.cells.push_back({0, 1 + 2 * next, 2 + 2 * next, 2 + 2 * i});
+    }
+    return mesh;
+}
+
 /// Adds a field of `association` with the values of `f` at points, cell centres or cell corners.
 inline void addField(data::MeshInput& mesh, const std::string& name, data::Association association,
                      const PointFunction& f) {
