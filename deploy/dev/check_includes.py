@@ -27,6 +27,7 @@ ALLOWED = {
     "renderer/gpu": BASE + ["renderer/gpu"],
     "renderer/shading": BASE + ["renderer/gpu", "renderer/shading", "shaders/shared"],
     **{part: MODEL for part in SCENE_MODEL},
+    "renderer/reference": MODEL + ["renderer/reference"],
     "renderer/plan": MODEL + ["renderer/plan"],
     "renderer/mesh": DRAWING + ["renderer/mesh", "shaders/shared"],
     "renderer/volume": DRAWING + ["renderer/volume", "shaders/shared"],

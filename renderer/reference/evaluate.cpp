@@ -1,0 +1,152 @@
+#include "renderer/reference/evaluate.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "renderer/reference/surface.h"
+#include "renderer/scene/ray_models.h"
+
+namespace volcast::reference {
+namespace {
+
+bool gathersSmoothly(scene::RayModel model) {
+    return model == scene::RayModel::kVolume || model == scene::RayModel::kXray ||
+           model == scene::RayModel::kSplat;
+}
+
+void mixIn(std::uint64_t& hash, std::uint64_t value) {
+    constexpr std::uint64_t kPrime = 1099511628211U;  // FNV-1a's.
+    hash = (hash ^ value) * kPrime;
+}
+
+/// How often a ray enters what it gathers from.
+std::uint64_t entries(std::span<const Part> parts) {
+    constexpr double kTouch = 1e-9;  // Of a distance: far above rounding, far below what shows.
+    std::uint64_t count = 0;
+    double end = -std::numeric_limits<double>::infinity();
+    for (const Part& part : parts) {
+        count += part.front > end + kTouch * std::abs(part.front) ? 1U : 0U;
+        end = std::max(end, part.front + part.length);
+    }
+    return count;
+}
+
+/// What a layer that ends no rays shows of its parts.
+glm::dvec4 gathered(const LayerData& data, std::span<const Part> parts,
+                    std::vector<double>& bends) {
+    const scene::Layer& layer = *data.layer;
+    switch (layer.model) {
+        case scene::RayModel::kVolume:
+            return volume(parts, {.colour = &data.colour, .extinction = &data.extinction}, bends);
+        case scene::RayModel::kXray: {
+            const double depth = opticalDepth(parts, data.extinction, bends);
+            return {glm::dvec3{std::exp(-layer.extinctionScale * depth)}, 1.0};
+        }
+        case scene::RayModel::kSplat:
+            return {std::exp2(static_cast<double>(layer.exposure)) *
+                        colourIntegral(parts, data.colour, bends),
+                    0.0};
+        case scene::RayModel::kMipColour: {
+            const auto largest = largestColour(parts, data.colour);
+            return largest ? glm::dvec4{*largest, 1.0} : glm::dvec4{0.0};
+        }
+        case scene::RayModel::kMip:
+        case scene::RayModel::kMinip: {
+            const auto found = extremes(parts);
+            if (!found) return glm::dvec4{0.0};
+            const bool max = layer.model == scene::RayModel::kMip;
+            return {glm::dvec3{data.colour.at(max ? found->max : found->min)}, 1.0};
+        }
+        case scene::RayModel::kSurface:
+        case scene::RayModel::kWireframe:
+        case scene::RayModel::kIsosurface: break;
+    }
+    return glm::dvec4{0.0};
+}
+
+}  // namespace
+
+Evaluator::Evaluator(const scene::Scene& scene, std::span<const LayerData> layers,
+                     scene::PictureSize size)
+    : clipPlanes_{scene.clipPlanes}, layers_{layers}, lens_{scene.camera, size} {
+    for (const LayerData& data : layers) {
+        mayJump_ = mayJump_ || !gathersSmoothly(data.layer->model);
+    }
+}
+
+void Evaluator::meetBoundary(const LayerData& data, const Ray& ray, const glm::dvec2& place,
+                             const Span& span, Scratch& scratch, Hit& hit, Sight& sight) const {
+    const scene::Layer& layer = *data.layer;
+    const data::Mesh& mesh = data.caster->mesh();
+    const auto found = nearestBoundary(mesh, ray, span, data.interval, scratch);
+    mixIn(sight.shape, found ? static_cast<std::uint64_t>(found->points) : 0U);
+    if (!found || found->distance >= hit.distance) return;
+    hit.distance = found->distance;
+    hit.layer = static_cast<std::size_t>(&data - layers_.data());
+    hit.colour =
+        layer.coloured ? glm::dvec3{data.colour.at(found->f)} : glm::dvec3{layer.surfaceColour};
+    if (layer.headlight) hit.colour *= found->facing;
+    if (layer.model != scene::RayModel::kWireframe) return;
+    double pixels = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < 3; ++i) {
+        const auto at = [&](std::size_t corner) {
+            const auto vertex = static_cast<std::size_t>(found->face[corner]);
+            return mesh.origin + glm::dvec3{mesh.vertices[vertex]};
+        };
+        pixels = std::min(pixels, lens_.pixelsToLine(place, at(i), at((i + 1) % 3)));
+    }
+    const double edge = std::clamp(0.5 * layer.edgeWidth + 0.5 - pixels, 0.0, 1.0);
+    hit.colour = glm::mix(hit.colour, glm::dvec3{layer.edgeColour}, edge);
+}
+
+void Evaluator::meetLevel(const LayerData& data, const Ray& ray, const Span& span, Scratch& scratch,
+                          Hit& hit, Sight& sight) {
+    const auto found = firstLevel(scratch.pieces, span, data.levels);
+    mixIn(sight.shape, found ? static_cast<std::uint64_t>(found->crossings) : 0U);
+    if (!found) return;
+    const auto level = std::ranges::lower_bound(data.levels, found->level) - data.levels.begin();
+    mixIn(sight.shape, static_cast<std::uint64_t>(level));
+    if (found->distance >= hit.distance) return;
+    hit.distance = found->distance;
+    hit.colour =
+        glm::dvec3{data.twoFields ? data.extinction.at(found->g) : data.colour.at(found->level)};
+    if (data.layer->headlight) {
+        hit.colour *= facingGradient(data.caster->mesh(), found->cell, data.f, ray.direction);
+    }
+}
+
+Sight Evaluator::look(const glm::dvec2& place, bool colours, Scratch& scratch) const {
+    Sight sight;
+    const Ray ray = lens_.through(place);
+    Span span = keptBy(clipPlanes_, ray);
+    Hit hit;
+    for (std::size_t i = 0; i < layers_.size(); ++i) {
+        const LayerData& data = layers_[i];
+        if (!scene::row(data.layer->model).opaque) continue;
+        data.caster->trace(ray, span, data.kept, data.f, data.g, scratch.pieces);
+        sight.pieces += scratch.pieces.size();
+        const double before = hit.distance;
+        if (data.layer->model == scene::RayModel::kIsosurface) {
+            meetLevel(data, ray, span, scratch, hit, sight);
+        } else {
+            meetBoundary(data, ray, place, span, scratch, hit, sight);
+        }
+        if (hit.distance < before) hit.layer = i;
+    }
+    mixIn(sight.shape, hit.layer);
+    sight.colour = std::isfinite(hit.distance) ? glm::dvec4{hit.colour, 1.0} : glm::dvec4{0.0};
+    span.end = std::min(span.end, hit.distance);
+    for (const LayerData& data : layers_) {
+        if (scene::row(data.layer->model).opaque) continue;
+        data.caster->trace(ray, span, data.kept, data.f, data.g, scratch.pieces);
+        sight.pieces += scratch.pieces.size();
+        cut(scratch.pieces, span, data.interval, scratch.parts);
+        mixIn(sight.shape, entries(scratch.parts));
+        if (!colours) continue;
+        const glm::dvec4 own = gathered(data, scratch.parts, scratch.bends);
+        sight.colour = own + (1.0 - own.a) * sight.colour;
+    }
+    return sight;
+}
+
+}  // namespace volcast::reference

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "renderer/reference/gather.h"
+#include "renderer/reference/layer_data.h"
+#include "renderer/reference/ray.h"
+
+namespace volcast::reference {
+
+/// Memory that rays reuse; one a thread.
+struct Scratch {
+    std::vector<Piece> pieces;
+    std::vector<Part> parts;
+    std::vector<double> bends;
+    std::vector<std::pair<FaceName, std::size_t>> faces;
+};
+
+/// What one ray of a scene sees.
+struct Sight {
+    glm::dvec4 colour{0.0};  ///< Premultiplied.
+    /// Equal for neighbouring rays unless a silhouette passes between them: how often each layer's
+    /// mesh, interval or level is entered and left, and which surface is in front.
+    std::uint64_t shape = 0;
+    std::uint64_t pieces = 0;
+};
+
+/// A scene ready for rays; read by any number of threads. Keeps references.
+class Evaluator {
+public:
+    /// `layers`: those that are visible, in list order.
+    Evaluator(const scene::Scene& scene, std::span<const LayerData> layers,
+              scene::PictureSize size);
+
+    /// The ray through `place` (pixels). Without `colours` only the shape of what it sees.
+    [[nodiscard]] Sight look(const glm::dvec2& place, bool colours, Scratch& scratch) const;
+
+    /// True where a layer's picture may jump between pixels without a silhouette.
+    [[nodiscard]] bool mayJump() const noexcept { return mayJump_; }
+
+private:
+    struct Hit {
+        double distance = std::numeric_limits<double>::infinity();
+        glm::dvec3 colour{0.0};
+        std::size_t layer = std::numeric_limits<std::size_t>::max();
+    };
+    /// Where a ray ends at an opaque layer, if before `hit`.
+    void meetBoundary(const LayerData& data, const Ray& ray, const glm::dvec2& place,
+                      const Span& span, Scratch& scratch, Hit& hit, Sight& sight) const;
+    static void meetLevel(const LayerData& data, const Ray& ray, const Span& span, Scratch& scratch,
+                          Hit& hit, Sight& sight);
+
+    std::span<const scene::ClipPlane> clipPlanes_;
+    std::span<const LayerData> layers_;
+    Lens lens_;
+    bool mayJump_ = false;
+};
+
+}  // namespace volcast::reference

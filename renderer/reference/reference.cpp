@@ -1,0 +1,178 @@
+#include "renderer/reference/reference.h"
+
+#include <algorithm>
+#include <string>
+#include <thread>
+
+#include "renderer/reference/evaluate.h"
+#include "renderer/scene/validate.h"
+
+namespace volcast::reference {
+namespace {
+
+constexpr std::size_t kBatch = 16;  // Rays a thread takes at a time.
+
+/// Calls `work(i, scratch)` for i below `count` on `threads` threads; false if it was cancelled.
+template <class Work>
+bool forAll(std::size_t count, int threads, const std::atomic<bool>* cancelled, const Work& work) {
+    std::atomic<std::size_t> next{0};
+    std::atomic<bool> stopped{false};
+    const auto run = [&] {
+        Scratch scratch;
+        for (;;) {
+            const std::size_t first = next.fetch_add(kBatch);
+            if (first >= count) return;
+            for (std::size_t i = first; i < std::min(first + kBatch, count); ++i) {
+                if (cancelled != nullptr && cancelled->load(std::memory_order_relaxed)) {
+                    stopped = true;
+                    return;
+                }
+                work(i, scratch);
+            }
+        }
+    };
+    std::vector<std::thread> others;
+    for (int i = 1; i < threads; ++i) others.emplace_back(run);
+    run();
+    for (std::thread& other : others) other.join();
+    return !stopped;
+}
+
+/// Pixels to look at for their shape alone as well: those asked for, and all around them. Sorted,
+/// each once, as one number in a picture with a frame of one pixel.
+class Places {
+public:
+    Places(std::span<const glm::ivec2> pixels, scene::PictureSize size) : width_{size.x + 2L} {
+        places_.reserve(9 * pixels.size());
+        for (const glm::ivec2& pixel : pixels) {
+            for (int around = 0; around < 9; ++around) {
+                places_.push_back(numberOf(pixel + neighbour(around)));
+            }
+        }
+        std::ranges::sort(places_);
+        places_.erase(std::unique(places_.begin(), places_.end()), places_.end());
+    }
+    static glm::ivec2 neighbour(int i) { return {i % 3 - 1, i / 3 - 1}; }
+    [[nodiscard]] std::size_t size() const { return places_.size(); }
+    [[nodiscard]] std::size_t indexOf(const glm::ivec2& pixel) const {
+        const auto found = std::ranges::lower_bound(places_, numberOf(pixel));
+        return static_cast<std::size_t>(found - places_.begin());
+    }
+    [[nodiscard]] glm::dvec2 centre(std::size_t i) const {
+        return {static_cast<double>(places_[i] % width_) - 0.5,
+                static_cast<double>(places_[i] / width_) - 0.5};
+    }
+
+private:
+    [[nodiscard]] std::int64_t numberOf(const glm::ivec2& pixel) const {
+        return (pixel.y + 1) * width_ + pixel.x + 1;
+    }
+    std::int64_t width_;
+    std::vector<std::int64_t> places_;
+};
+
+/// True where the picture changes by more than it should within a small way of `place`.
+///
+/// An evaluator in float32 may be off by 1/2000 of a pixel in a picture of 8192 pixels (2^-24 of
+/// it), a quarter of the way; the picture's slope there would be above one unit a pixel.
+bool jumps(const Evaluator& evaluator, const glm::dvec2& place, const Sight& centre,
+           Scratch& scratch) {
+    constexpr double kWay = 1.0 / 512.0;   // Pixels.
+    constexpr double kStep = 1.0 / 512.0;  // Of a channel.
+    for (int i = 1; i < 9; i += 2) {
+        const Sight near =
+            evaluator.look(place + kWay * glm::dvec2{Places::neighbour(i)}, true, scratch);
+        const glm::dvec4 change = glm::abs(near.colour - centre.colour);
+        if (std::max({change.r, change.g, change.b, change.a}) > kStep) return true;
+    }
+    return false;
+}
+
+Result<void> check(const scene::Scene& scene, scene::PictureSize size,
+                   std::span<const glm::ivec2> pixels, int threads) {
+    if (auto valid = scene::validate(scene); !valid) return valid;
+    if (auto valid = scene::validate(size); !valid) return valid;
+    for (const glm::ivec2& pixel : pixels) {
+        if (pixel.x >= 0 && pixel.y >= 0 && pixel.x < size.x && pixel.y < size.y) continue;
+        return fail(ErrorCode::kInvalidArgument,
+                    "reference: pixel " + std::to_string(pixel.x) + ", " + std::to_string(pixel.y) +
+                        " lies outside of a picture of " + std::to_string(size.x) + " x " +
+                        std::to_string(size.y));
+    }
+    if (threads >= 1) return {};
+    return fail(ErrorCode::kInvalidArgument,
+                "reference: " + std::to_string(threads) + " threads, expected 1 or more");
+}
+
+Result<std::vector<LayerData>> prepareAll(const scene::Scene& scene, const Casters& casters) {
+    std::vector<LayerData> layers;
+    for (std::size_t i = 0; i < scene.layers.size(); ++i) {
+        if (!scene.layers[i].visible) continue;
+        auto data = prepare(scene.layers[i], casters, "layers[" + std::to_string(i) + "]");
+        if (!data) return data.error();
+        layers.push_back(std::move(*data));
+    }
+    return layers;
+}
+
+}  // namespace
+
+std::shared_ptr<const Caster> makeCaster(const data::Mesh& mesh) {
+    return std::make_shared<const Caster>(mesh);
+}
+
+Result<Picture> draw(const scene::Scene& scene, const Casters& casters, scene::PictureSize size,
+                     std::span<const glm::ivec2> pixels, int threads,
+                     const std::atomic<bool>* cancelled) {
+    if (auto valid = check(scene, size, pixels, threads); !valid) return valid.error();
+    const auto layers = prepareAll(scene, casters);
+    if (!layers) return layers.error();
+    std::vector<glm::ivec2> all;
+    if (pixels.empty()) {
+        for (int y = 0; y < size.y; ++y) {
+            for (int x = 0; x < size.x; ++x) all.emplace_back(x, y);
+        }
+        pixels = all;
+    }
+    const Places places{pixels, size};
+    std::vector<char> wanted(places.size(), 0);
+    for (const glm::ivec2& pixel : pixels) wanted[places.indexOf(pixel)] = 1;
+
+    const Evaluator evaluator{scene, *layers, size};
+    std::vector<Sight> sights(places.size());
+    std::vector<char> jumping(places.size(), 0);
+    const bool done = forAll(places.size(), threads, cancelled, [&](std::size_t i, Scratch& own) {
+        const glm::dvec2 centre = places.centre(i);
+        sights[i] = evaluator.look(centre, wanted[i] != 0, own);
+        if (wanted[i] == 0 || !evaluator.mayJump()) return;
+        jumping[i] = jumps(evaluator, centre, sights[i], own) ? 1 : 0;
+    });
+    if (!done) return fail(ErrorCode::kTimeout, "reference: cancelled before the picture was done");
+
+    Picture picture{.size = size, .pixels = {}, .nearEdge = {}};
+    for (const glm::ivec2& pixel : pixels) {
+        const std::size_t own = places.indexOf(pixel);
+        bool near = jumping[own] != 0;
+        for (int around = 0; around < 9 && !near; ++around) {
+            const std::size_t other = places.indexOf(pixel + Places::neighbour(around));
+            near = sights[other].shape != sights[own].shape;
+        }
+        picture.pixels.push_back(sights[own].colour);
+        picture.nearEdge.push_back(near ? 1 : 0);
+        picture.piecesVisited += sights[own].pieces;
+    }
+    return picture;
+}
+
+Result<Picture> draw(const scene::Scene& scene,
+                     const std::map<std::string, const data::Mesh*>& meshes,
+                     scene::PictureSize size, std::span<const glm::ivec2> pixels, int threads,
+                     const std::atomic<bool>* cancelled) {
+    Casters casters;
+    for (const auto& [id, mesh] : meshes) {
+        if (mesh != nullptr) casters.emplace(id, makeCaster(*mesh));
+    }
+    return draw(scene, casters, size, pixels, threads, cancelled);
+}
+
+}  // namespace volcast::reference
