@@ -2,36 +2,82 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace volcast::scene {
 namespace {
 
-/// Mean of `field` over the data, as a part of its range; from the histogram.
-double meanFraction(const data::FieldSummary& field) {
+/// Mean over the data of `of` (a value to a number); from the histogram. 1 where there is none.
+template <class Function>
+double mean(const data::FieldSummary& field, Function of) {
+    const std::size_t bins = field.histogram.size();
     double sum = 0.0;
     double count = 0.0;
-    for (std::size_t i = 0; i < field.histogram.size(); ++i) {
-        sum += field.histogram[i] * (static_cast<double>(i) + 0.5);
+    for (std::size_t i = 0; i < bins; ++i) {
+        const double part = (static_cast<double>(i) + 0.5) / static_cast<double>(bins);
+        const double value = std::lerp(static_cast<double>(field.range.min),
+                                       static_cast<double>(field.range.max), part);
+        sum += field.histogram[i] * static_cast<double>(of(static_cast<float>(value)));
         count += field.histogram[i];
     }
-    return count > 0.0 ? sum / (count * static_cast<double>(field.histogram.size())) : 0.5;
+    return count > 0.0 ? sum / count : 1.0;
+}
+
+/// How far a ray runs through the data, world units: the side of a cube of the same size as the
+/// bounds, or a tenth of their mean side where they are thin.
+double lengthThrough(const data::Box& bounds) {
+    const glm::dvec3 side = bounds.max - bounds.min;
+    return std::max(std::cbrt(side.x * side.y * side.z), (side.x + side.y + side.z) / 30.0);
 }
 
 /// The length that is to be half opaque at the middle of the range, so that a ray through all of
 /// the data meets an optical depth of about kDepth. Extinction rises linearly, so the mean is
-/// 2 ln 2 / length * meanFraction. Data that is nearly all at one end of its range is not followed
-/// beyond kLeast and kMost.
+/// 2 ln 2 / length * (mean of the field as a part of its range). Data that is nearly all at one end
+/// of its range is not followed beyond kLeast and kMost.
 double halfOpaqueLength(const data::Box& bounds, const data::FieldSummary& field) {
     constexpr double kDepth = 2.0;
     constexpr double kLeast = 0.05;
     constexpr double kMost = 0.5;
-    const glm::dvec3 side = bounds.max - bounds.min;
-    const double mean = (side.x + side.y + side.z) / 3.0;
-    const double through = std::max(std::cbrt(side.x * side.y * side.z), mean / 10.0);
-    return 2.0 * std::log(2.0) * through * std::clamp(meanFraction(field), kLeast, kMost) / kDepth;
+    const double min = field.range.min;
+    const double width = static_cast<double>(field.range.max) - min;
+    const double fraction =
+        mean(field, [&](float value) { return width > 0.0 ? (value - min) / width : 0.5; });
+    return 2.0 * std::log(2.0) * lengthThrough(bounds) * std::clamp(fraction, kLeast, kMost) /
+           kDepth;
+}
+
+const data::FieldSummary* fieldNamed(const data::DatasetSummary& summary, const std::string& name) {
+    const auto found = std::ranges::find(summary.fields, name, &data::FieldSummary::name);
+    if (found != summary.fields.end()) return &*found;
+    return summary.fields.empty() ? nullptr : &summary.fields.front();
 }
 
 }  // namespace
+
+void expose(Layer& layer, const data::DatasetSummary& summary) {
+    constexpr double kXrayDepth = 1.5;  // exp(-1.5) = 0.22: dark, and not yet black.
+    constexpr double kSplatLight = 0.7;
+    constexpr double kMostStops = 64.0;
+    const data::FieldSummary* f = fieldNamed(summary, layer.field);
+    if (f == nullptr || layer.map.points.empty()) return;
+    const bool second = !layer.densityField.empty();
+    const data::FieldSummary& g = second ? *fieldNamed(summary, layer.densityField) : *f;
+    const data::TransferFunction& density =
+        second && !layer.densityMap.points.empty() ? layer.densityMap : layer.map;
+    const double through = lengthThrough(summary.bounds);
+    const double depth =
+        through * mean(g, [&](float value) { return data::evaluate(density, value).a; });
+    const double scale = kXrayDepth / depth;
+    layer.extinctionScale = std::isfinite(scale) && scale < 1e30 ? static_cast<float>(scale) : 1.0F;
+    const double light = through * mean(*f, [&](float value) {
+                             const glm::vec4 colour = data::evaluate(layer.map, value);
+                             return std::max({colour.r, colour.g, colour.b});
+                         });
+    const double stops = std::log2(kSplatLight / light);
+    layer.exposure = std::isfinite(stops)
+                         ? static_cast<float>(std::clamp(stops, -kMostStops, kMostStops))
+                         : 0.0F;
+}
 
 Layer defaultLayer(const std::string& datasetId, const data::DatasetSummary& summary,
                    const std::string& field, RayModel model) {
@@ -39,13 +85,14 @@ Layer defaultLayer(const std::string& datasetId, const data::DatasetSummary& sum
     layer.id = "main";
     layer.dataset = datasetId;
     layer.model = model;
-    if (summary.fields.empty()) return layer;
-    const auto named = std::ranges::find(summary.fields, field, &data::FieldSummary::name);
-    const data::FieldSummary& shown =
-        named == summary.fields.end() ? summary.fields.front() : *named;
-    layer.field = shown.name;
-    layer.map = data::defaultTransferFunction(shown.range, halfOpaqueLength(summary.bounds, shown));
-    layer.coloured = model == RayModel::kSurface;
+    const data::FieldSummary* shown = fieldNamed(summary, field);
+    if (shown == nullptr) return layer;
+    layer.field = shown->name;
+    layer.map =
+        data::defaultTransferFunction(shown->range, halfOpaqueLength(summary.bounds, *shown));
+    layer.coloured = model == RayModel::kSurface || model == RayModel::kWireframe;
+    layer.levels.values = {std::midpoint(shown->range.min, shown->range.max)};
+    expose(layer, summary);
     return layer;
 }
 

@@ -10,8 +10,14 @@ namespace volcast::scene {
 /// map over the field's range; `surface` for a mesh without fields.
 Scene defaultScene(const std::string& datasetId, const data::DatasetSummary& summary);
 
-/// As above for one field and ray model; `field` must exist.
+/// As above for one field and ray model; `field` must exist. Whatever the model, all that it reads
+/// is set: one level at the middle of the range, exposures as expose() finds them, surfaces and
+/// wireframes in the colours of the field.
 Layer defaultLayer(const std::string& datasetId, const data::DatasetSummary& summary,
                    const std::string& field, RayModel model);
+
+/// Sets `extinctionScale` and `exposure` so that xray and splat neither drown in white nor in black
+/// for the layer's fields and maps, by their means over the data.
+void expose(Layer& layer, const data::DatasetSummary& summary);
 
 }  // namespace volcast::scene

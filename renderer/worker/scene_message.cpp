@@ -489,4 +489,8 @@ v1::Scene toMessage(const scene::Scene& scene) {
     return message;
 }
 
+v1::RayModel toMessage(scene::RayModel model) {
+    return theirsFrom(kModels, model);
+}
+
 }  // namespace volcast::worker

@@ -13,5 +13,6 @@ Result<scene::Scene> sceneFrom(const v1::Scene& message);
 Result<scene::Camera> cameraFrom(const v1::Camera& message, const std::string& path = "camera");
 
 v1::Scene toMessage(const scene::Scene& scene);
+v1::RayModel toMessage(scene::RayModel model);
 
 }  // namespace volcast::worker

@@ -14,22 +14,19 @@
 
 #include "renderer/scene/ray_models.h"
 #include "renderer/worker/frame_message.h"
-#include "server/commands/cache_folder.h"
 #include "server/commands/files.h"
 #include "server/commands/json_text.h"
 #include "server/commands/offline_renderer.h"
-#include "server/commands/progress.h"
+#include "server/commands/preparation.h"
 #include "server/commands/render_options.h"
 #include "server/commands/render_scene.h"
 #include "server/video/encoder.h"
-#include "server/workers/import_service.h"
 
 namespace volcast::commands {
 
 namespace {
 
 namespace json = boost::json;
-using std::chrono::milliseconds;
 
 /// Times of the frames after the warm-up frame, in ms.
 struct Times {
@@ -46,29 +43,6 @@ double median(std::vector<double> values) {
 /// Hundredths are enough, and more would only pretend.
 double rounded(double value) {
     return std::round(value * 100.0) / 100.0;
-}
-
-Result<workers::ImportedDataset> import(const RenderOptions& options, Progress& progress) {
-    workers::ImportRequest request;
-    request.path = options.dataset;
-    request.tetgenSwitches = options.tetgenSwitches;
-    if (!options.spacing.empty()) {
-        request.spacing = {options.spacing[0], options.spacing[1], options.spacing[2]};
-    }
-    return workers::runImport(request, {}, [&progress](const std::string& stage, double fraction) {
-        progress.show(stage, fraction);
-    });
-}
-
-workers::RenderSettings settingsFor(const RenderOptions& options) {
-    workers::RenderSettings settings;
-    settings.gpu = options.gpu;
-    settings.shaderFolder = options.shaderFolder;
-    settings.cacheFolder = options.cacheFolder.empty() ? userCacheFolder() : options.cacheFolder;
-    settings.frameDeadline =
-        milliseconds{static_cast<std::int64_t>(std::max(1.0, options.timeoutSeconds * 1e3))};
-    settings.warmSpare = false;
-    return settings;
 }
 
 /// Frame k turns the eye by k * orbit; frame 0, the warm-up, has been drawn.
@@ -120,10 +94,10 @@ json::object report(const RenderOptions& options, const workers::ImportedDataset
                     const scene::Scene& scene, const workers::RenderedFrame& first,
                     const Times& times, const std::string& gl, double peakMb, double loadMs) {
     json::object line{
-        {"data", std::filesystem::path{options.dataset}.filename().string()},
+        {"data", std::filesystem::path{options.scene.dataset}.filename().string()},
         {"model",
          scene.layers.empty() ? std::string{} : std::string{scene::name(scene.layers[0].model)}},
-        {"size", {options.size[0], options.size[1]}},
+        {"size", {options.scene.size[0], options.scene.size[1]}},
         {"frames", options.frames},
         {"median_ms", rounded(median(times.draw))},
         {"min_ms", rounded(std::ranges::min(times.draw))},
@@ -151,8 +125,7 @@ Result<void> draw(const RenderOptions& options) {
     }
     Progress progress;
     const auto loadStart = std::chrono::steady_clock::now();
-    auto data = import(options, progress);
-    progress.clear();
+    auto data = importFor(options.scene, progress);
     if (!data) return std::move(data).error();
     const double loadMs =
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - loadStart)
@@ -160,16 +133,16 @@ Result<void> draw(const RenderOptions& options) {
     for (const std::string& warning : data->warnings) {
         std::fprintf(stderr, "volcast render: note: %s\n", warning.c_str());
     }
-    auto scene = sceneFor(options, data->summary);
+    auto scene = sceneFor(options.scene, data->summary);
     if (!scene) return std::move(scene).error();
-    auto renderer = OfflineRenderer::create(settingsFor(options));
+    auto renderer = OfflineRenderer::create(settingsFor(options.scene));
     if (!renderer) return std::move(renderer).error();
     renderer->service().addDataset(kRenderDataset, std::move(data->packed));
 
     workers::RenderRequest request;
     request.view = 1;
     request.scene = *scene;
-    request.size = {options.size[0], options.size[1]};
+    request.size = {options.scene.size[0], options.scene.size[1]};
     request.wantFloat = !options.raw.empty();
     const auto first = renderer->draw(request);
     if (!first) return first.error();

@@ -1,6 +1,5 @@
 #include "server/commands/render_scene.h"
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -9,70 +8,13 @@
 #include "renderer/worker/scene_json.h"
 #include "server/commands/camera_file.h"
 #include "server/commands/files.h"
+#include "server/commands/option_layer.h"
 
 namespace volcast::commands {
 
 namespace {
 
-/// `error` of something read from `path`.
-Error in(const std::string& path, const Error& error) {
-    const bool named = error.field.empty() || error.message.find(error.field) != std::string::npos;
-    return fail(error.code, path + ": " + (named ? "" : error.field + ": ") + error.message,
-                error.field);
-}
-
-scene::RayModel modelFrom(const std::string& name) {
-    if (name == "surface") return scene::RayModel::kSurface;
-    if (name == "mip" || name == "max") return scene::RayModel::kMip;
-    return scene::RayModel::kVolume;
-}
-
-Result<std::string> chosenField(const RenderOptions& options, const data::DatasetSummary& summary) {
-    std::string names;
-    for (const data::FieldSummary& field : summary.fields) {
-        if (field.name == options.field) return field.name;
-        names += (names.empty() ? "" : ", ") + field.name;
-    }
-    if (!options.field.empty()) {
-        return fail(ErrorCode::kNotFound,
-                    options.dataset + ": has no field \"" + options.field + "\"" +
-                        (names.empty() ? "; it has none" : "; it has " + names));
-    }
-    return summary.fields.empty() ? std::string{} : summary.fields.front().name;
-}
-
-glm::vec3 vectorFrom(const std::vector<float>& values) {
-    return {values[0], values[1], values[2]};
-}
-
-/// The one layer of a scene without a document.
-Result<scene::Layer> layerFor(const RenderOptions& options, const data::DatasetSummary& summary,
-                              scene::RayModel usual) {
-    auto field = chosenField(options, summary);
-    if (!field) return std::move(field).error();
-    const scene::RayModel model = options.model.empty() ? usual : modelFrom(options.model);
-    scene::Layer layer = scene::defaultLayer(kRenderDataset, summary, *field, model);
-    if (!options.map.empty()) {
-        auto text = readTextFile(options.map);
-        if (!text) return std::move(text).error();
-        auto map = data::parseTransferFunction(*text);
-        if (!map) return in(options.map, map.error());
-        layer.map = *std::move(map);
-    }
-    layer.timeStep = options.timeStep;
-    layer.stepWorld = options.step;
-    layer.headlight = !options.unlit;
-    if (options.coloured) layer.coloured = true;
-    if (!options.colour.empty()) {
-        layer.coloured = false;
-        layer.surfaceColour = vectorFrom(options.colour);
-    }
-    if (options.sampling == "nearest") layer.sampling = scene::Sampling::kNearest;
-    if (options.integrator == "average") layer.integrator = scene::Integrator::kAverage;
-    return layer;
-}
-
-Result<scene::Scene> documentScene(const RenderOptions& options,
+Result<scene::Scene> documentScene(const SceneOptions& options,
                                    const data::DatasetSummary& summary) {
     auto text = readTextFile(options.sceneFile);
     if (!text) return std::move(text).error();
@@ -83,7 +25,7 @@ Result<scene::Scene> documentScene(const RenderOptions& options,
     return scene;
 }
 
-Result<scene::Camera> cameraFor(const RenderOptions& options, const scene::Camera& usual) {
+Result<scene::Camera> cameraFor(const SceneOptions& options, const scene::Camera& usual) {
     scene::Camera camera = usual;
     if (!options.camera.empty()) {
         auto text = readTextFile(options.camera);
@@ -105,7 +47,7 @@ Result<scene::Camera> cameraFor(const RenderOptions& options, const scene::Camer
 
 }  // namespace
 
-Result<scene::Scene> sceneFor(const RenderOptions& options, const data::DatasetSummary& summary) {
+Result<scene::Scene> sceneFor(const SceneOptions& options, const data::DatasetSummary& summary) {
     scene::Scene scene = scene::defaultScene(kRenderDataset, summary);
     if (!options.sceneFile.empty()) {
         auto document = documentScene(options, summary);
@@ -121,8 +63,13 @@ Result<scene::Scene> sceneFor(const RenderOptions& options, const data::DatasetS
     if (!camera) return std::move(camera).error();
     scene.camera = *camera;
     if (!options.background.empty()) {
-        scene.background = glm::vec4(vectorFrom(options.background), 1.0F);
+        const std::vector<float>& rgb = options.background;
+        scene.background = {rgb[0], rgb[1], rgb[2], 1.0F};
     }
+    for (const auto& [x, y, z, offset] : options.clip) {
+        scene.clipPlanes.push_back({.normal = {x, y, z}, .offset = offset});
+    }
+    if (!options.accuracy.empty()) scene.accuracy = *parseAccuracy(options.accuracy);
     if (auto valid = scene::validate(scene); !valid) return std::move(valid).error();
     if (auto valid = scene::validate(scene, {{kRenderDataset, summary}}); !valid) {
         return in(options.dataset, valid.error());

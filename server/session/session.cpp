@@ -7,6 +7,8 @@
 
 #include "protocol/framing.h"
 #include "renderer/base/printable.h"
+#include "renderer/scene/ray_models.h"
+#include "renderer/worker/scene_message.h"
 #include "server/session/on_strand.h"
 
 namespace volcast::session {
@@ -110,9 +112,9 @@ void Session::welcome() {
     welcome.set_server(shared_.server);
     welcome.set_source_url(shared_.sourceUrl);
     for (const auto codec : {v1::CODEC_JPEG, v1::CODEC_PNG}) welcome.add_codecs(codec);
-    for (const auto model : {v1::RAY_MODEL_SURFACE, v1::RAY_MODEL_MIP, v1::RAY_MODEL_VOLUME}) {
-        welcome.add_mesh_models(model);
-        if (model != v1::RAY_MODEL_SURFACE) welcome.add_volume_models(model);
+    for (const scene::RayModelRow& row : scene::rayModels()) {
+        if (row.onMeshes) welcome.add_mesh_models(worker::toMessage(row.model));
+        if (row.onVolumes) welcome.add_volume_models(worker::toMessage(row.model));
     }
     v1::Limits& limits = *welcome.mutable_limits();
     limits.set_max_views(shared_.limits.maxViews);

@@ -104,10 +104,57 @@ TEST(RenderCommand, WrongOptionsAreUsageErrors) {
                                                {"demo:mesh", "--orbit", "inf"},
                                                {"demo:mesh", "--frames", "-1"},
                                                {"demo:mesh", "--no-such-option"},
+                                               {"demo:mesh", "--scene", "a", "--levels", "1"},
+                                               {"demo:mesh", "--integrator", "guess"},
+                                               {"demo:mesh", "--evaluator", "guess"},
+                                               {"demo:mesh", "--scale", "cubic"},
+                                               {"demo:mesh", "--scale-domain", "1"},
+                                               {"demo:mesh", "--interval", "1", "nan"},
+                                               {"demo:mesh", "--levels", "inf"},
+                                               {"demo:mesh", "--level-spacing", "log"},
+                                               {"demo:mesh", "--edge-width", "0"},
+                                               {"demo:mesh", "--extinction-scale", "-1"},
+                                               {"demo:mesh", "--clip", "1", "0", "0"},
+                                               {"demo:mesh", "--accuracy", "error"},
+                                               {"demo:mesh", "--accuracy", "error:-1"},
+                                               {"demo:mesh", "--accuracy", "time:nan"},
+                                               {"demo:mesh", "--accuracy", "best"},
                                                {}}) {
         const Outcome run = render(words);
         EXPECT_EQ(run.exitCode, 2) << run.err;
         EXPECT_FALSE(run.err.empty());
+    }
+}
+
+struct Refusal {
+    std::vector<std::string> words;
+    const char* named;    // The option or the part of a scene.
+    const char* allowed;  // What would have been right, or the limit.
+};
+
+TEST(RenderCommand, SaysWhatIsAllowedWhereOptionsDoNotFitTogether) {
+    for (const Refusal& wrong : std::vector<Refusal>{
+             {{"--model", "volume", "--integrator", "ends"}, "--integrator", "psi_table"},
+             {{"--model", "surface", "--integrator", "psi"}, "--integrator", "exact"},
+             {{"--model", "volume", "--evaluator", "projection_faces"}, "evaluator", "mip"},
+             {{"--model", "isosurface", "--level-range", "0", "1", "2.5"}, "--level-range", "256"},
+             {{"--model", "isosurface", "--level-range", "-1", "1", "3", "--level-spacing", "log"},
+              "levels",
+              "0"},
+             {{"--markers", "region", "one"}, "--markers", "number"},
+             {{"--markers", "nowhere", "1"}, "nowhere", "it has "},
+             {{"--density-field", "nowhere"}, "nowhere", "it has "},
+             {{"--scale-exponent", "2"}, "--scale-exponent", "power"},
+             {{"--scale", "log", "--scale-domain", "-1", "1"}, "scale.domain", "0"},
+             {{"--interval", "2", "1"}, "interval", "order"},
+             {{"--exposure", "100"}, "exposure", "64"},
+             {{"--clip", "0", "0", "0", "1"}, "clip_planes[0].normal", "above 0"}}) {
+        std::vector<std::string> words{"demo:mesh", "--size", "8", "8"};
+        words.insert(words.end(), wrong.words.begin(), wrong.words.end());
+        const Outcome run = render(words);
+        EXPECT_EQ(run.exitCode, 1) << run.err;
+        EXPECT_NE(run.err.find(wrong.named), std::string::npos) << run.err;
+        EXPECT_NE(run.err.find(wrong.allowed), std::string::npos) << run.err;
     }
 }
 

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "renderer/scene/scene.h"
+
+namespace CLI {
+class App;
+class Validator;
+}  // namespace CLI
+
+namespace volcast::commands {
+
+/// How the values of a field are turned into those that rays interpolate. Empty: not given.
+struct ScaleOptions {
+    std::string kind;  ///< linear, log, power.
+    std::optional<float> exponent;
+    std::vector<float> domain;
+};
+
+/// What is drawn: shared by the commands that draw. Empty texts, lists and optionals: not given.
+struct SceneOptions {
+    std::string dataset;
+    // the layer
+    std::string map, model, field, sampling, integrator, evaluator;
+    int timeStep = 0;
+    double step = 0.0;  ///< World units; 0: half the smallest spacing.
+    ScaleOptions scale;
+    std::string densityField, densityMap;
+    ScaleOptions densityScale;
+    std::vector<float> interval;
+    std::vector<std::string> markers;  ///< A field, then values.
+    std::vector<float> levels;
+    std::vector<float> levelRange;  ///< First, last, count.
+    std::string levelSpacing;
+    std::optional<float> levelExponent;
+    std::vector<float> colour;
+    bool coloured = false;
+    bool unlit = false;
+    std::optional<float> edgeWidth;
+    std::vector<float> edgeColour;
+    std::optional<float> exposure, extinctionScale;
+    // the scene
+    std::string sceneFile, camera, projection;
+    std::vector<std::tuple<double, double, double, double>> clip;  ///< Normal and offset.
+    std::string accuracy;
+    std::vector<float> background;
+    // the picture
+    std::vector<int> size{512, 512};
+    // how
+    std::string gpu, cacheFolder, shaderFolder;
+    double timeoutSeconds = 600.0;
+    std::string tetgenSwitches = "pq1.414";
+    std::vector<double> spacing;
+};
+
+/// Registers every option above; wrong values are refused when the command line is read.
+void addSceneOptions(CLI::App& command, SceneOptions& options);
+
+/// "auto", "fastest", "exact", "error:X" (1/255) or "time:MS".
+///
+/// Errors: kInvalidArgument saying what is allowed.
+Result<scene::Accuracy> parseAccuracy(const std::string& text);
+
+/// CLI11's number checks let NaN and infinity through.
+const CLI::Validator& finite();
+
+}  // namespace volcast::commands
