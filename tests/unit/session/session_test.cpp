@@ -110,7 +110,6 @@ protected:
 
     ScriptedRender render;
     ViewRouter router;
-    EncodePool encoders{1};
     workers::RenderEvents events;
     std::unique_ptr<Catalogue> catalogue;
     std::unique_ptr<Shared> shared;
@@ -118,6 +117,7 @@ protected:
     std::condition_variable came;
     std::deque<std::function<void()>> posted;
     std::shared_ptr<Session> session;
+    EncodePool encoders{1};  // Last: its thread posts until it has ended.
 };
 
 TEST_F(SessionTest, ADefaultViewIsOpenedDrawnAndMadeExact) {
