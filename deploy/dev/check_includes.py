@@ -8,8 +8,8 @@ import re
 import subprocess
 import sys
 
-SCENE_MODEL = ["renderer/scene/camera", "renderer/scene/default_scene", "renderer/scene/ray_models",
-               "renderer/scene/scale", "renderer/scene/scene_diff",
+SCENE_MODEL = ["renderer/scene/camera", "renderer/scene/default_scene", "renderer/scene/layer_fields",
+               "renderer/scene/ray_models", "renderer/scene/scale", "renderer/scene/scene_diff",
                "renderer/scene/scene", "renderer/scene/validate"]
 BASE = ["renderer/base"]
 MODEL = BASE + ["renderer/data", *SCENE_MODEL]

@@ -25,8 +25,7 @@ bool holds(const data::Box& box, const glm::dvec3& point) {
 Result<void> CameraVertices::prepare(const DrawInputs& inputs) {
     const MeshBuffers& mesh = MeshBuffers::of(*inputs.meshGpu);
     // Only values at vertices travel with the vertices.
-    const bool carried =
-        inputs.field != nullptr && inputs.association == data::Association::kVertex;
+    const bool carried = valuesAt(inputs.field) == shared::kValuesAtVertices;
     const Key key{.mesh = mesh.serial,
                   .field = carried ? FieldBuffer::of(*inputs.field).serial : 0,
                   .camera = inputs.cameraVersion,

@@ -125,9 +125,15 @@ Result<std::unique_ptr<MeshGpu>> MeshGpu::upload(gpu::Device& device, const data
 }
 
 Result<std::unique_ptr<FieldGpu>> FieldGpu::upload(gpu::Device& device, const data::Mesh& mesh,
-                                                   const data::Field& field, int step) {
+                                                   const data::Field& field, int step,
+                                                   const scene::ScaleFunction& scale) {
     auto gpu = std::make_unique<FieldBuffer>();
-    const auto values = field.steps.at(static_cast<std::size_t>(step)).span();
+    std::span<const float> values = field.steps.at(static_cast<std::size_t>(step)).span();
+    std::vector<float> scaled;
+    if (!scale.identity()) {
+        for (const float value : values) scaled.push_back(scale.ofData(value));
+        values = scaled;
+    }
     Result<void> done;
     if (field.association == data::Association::kCellVertex) {
         const std::vector<glm::vec4> sorted = cornerValues(mesh, values);
@@ -137,8 +143,14 @@ Result<std::unique_ptr<FieldGpu>> FieldGpu::upload(gpu::Device& device, const da
         done = fill(device, gpu->values, values, gpu::TexelFormat::kR32F, "field");
     }
     if (!done) return done.error();
+    gpu->association = field.association;
     gpu->serial = nextSerial();
     return std::unique_ptr<FieldGpu>{std::move(gpu)};
+}
+
+int valuesAt(const FieldGpu* field) {
+    return field == nullptr ? shared::kValuesNowhere
+                            : valuesAt(FieldBuffer::of(*field).association);
 }
 
 int valuesAt(data::Association association) {

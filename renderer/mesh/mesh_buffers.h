@@ -30,6 +30,7 @@ public:
 class FieldBuffer final : public FieldGpu {
 public:
     gpu::Buffer values;  ///< One float, or four a cell in the order of vertex numbers.
+    data::Association association = data::Association::kVertex;
     std::uint64_t serial = 0;
 
     static const FieldBuffer& of(const FieldGpu& field) {
@@ -37,7 +38,8 @@ public:
     }
 };
 
-/// The constant kValuesAt of a field's association.
+/// Where a field's values sit, for the constants kValuesAt and kDensityAt; null: nowhere.
 int valuesAt(data::Association association);
+int valuesAt(const FieldGpu* field);
 
 }  // namespace volcast::mesh

@@ -15,18 +15,46 @@ namespace volcast::mesh {
 
 namespace {
 
+// Models and integrators that take a piece in parts, where the map bends.
+bool splitsPieces(const WalkTraits& traits) {
+    using scene::RayModel;
+    const bool integrates = traits.model == RayModel::kVolume || traits.model == RayModel::kXray ||
+                            traits.model == RayModel::kSplat;
+    return integrates && traits.integrator == scene::Integrator::kExact;
+}
+
 // llvmpipe ends all loops of an invocation after 65,535 iterations together. A single loop counts
 // the steps of the longest of its 8 rays; nested loops may count those of all 8.
 constexpr int kMaxStepsConvex = 65000;
 constexpr int kMaxStepsListed = 8000;
 constexpr int kMaxDraws = 4096;  // Of one picture; 32 million cells on a ray.
 
+bool isOneColour(const plan::LayerPlan& plan) {
+    const auto colours = std::ranges::find(plan.effects, plan::kColours, &plan::Effect::name);
+    return colours != plan.effects.end() && !colours->on && !plan.has(plan::kLevelsInVolume);
+}
+
 WalkTraits traitsOf(const DrawInputs& inputs) {
     return {.model = inputs.layer->model,
-            .association = inputs.association,
+            .integrator = inputs.plan->method,
+            .valuesAt = valuesAt(inputs.field),
+            .densityAt = valuesAt(inputs.density),
+            .levels = inputs.plan->has(plan::kLevelsInVolume),
+            .oneColour = isOneColour(*inputs.plan),
+            .lit = inputs.plan->has(plan::kGradient),
+            .interval = inputs.plan->has(plan::kInterval),
+            .clipPlanes = inputs.clipPlanes,
             .convex = inputs.mesh->convex,
             .clipsAtStart = inputs.planeDepth <= 0.0,
             .earlyStop = inputs.plan->has(plan::kEarlyStop)};
+}
+
+/// A piece's front values are the back values of the piece before.
+bool isContinuous(const WalkTraits& traits) {
+    const bool second =
+        traits.densityAt == shared::kValuesAtVertices || traits.densityAt == shared::kValuesNowhere;
+    return traits.valuesAt == shared::kValuesAtVertices && second && !traits.interval &&
+           !traits.clipsAtStart && traits.clipPlanes == 0;
 }
 
 /// Bytes between two paused rays of `program`; their size depends on the ray model.
@@ -41,7 +69,9 @@ std::size_t pausedRayBytes(const gpu::Program& program) {
 }
 
 void drawPicture(const DrawInputs& inputs, const gpu::Program& program, const WalkCache& cache) {
-    inputs.target->begin({.blend = gpu::Blend::kOver});
+    const bool opaque = scene::row(inputs.layer->model).opaque;
+    inputs.target->begin(opaque ? gpu::PassState{.depth = gpu::DepthTest::kNearest}
+                                : gpu::PassState{.blend = gpu::Blend::kOver});
     program.use();
     cache.bind(inputs);
     inputs.device->draw(gpu::Primitive::kTriangles, 3);
@@ -74,19 +104,33 @@ Result<void> drawLongRays(const DrawInputs& inputs, WalkCache& cache) {
 
 shading::Recipe walkRecipe(const WalkTraits& traits, std::vector<shading::Constant> constants) {
     const scene::RayModelRow& row = scene::row(traits.model);
+    const scene::IntegratorRow* integrator = scene::integratorRow(traits.model, traits.integrator);
     const bool listed = !traits.convex;
-    constants.insert(constants.end(), {{"kValuesAt", valuesAt(traits.association)},
+    constants.insert(constants.end(), {{"kValuesAt", traits.valuesAt},
+                                       {"kDensityAt", traits.densityAt},
                                        {"kListed", listed},
+                                       {"kContinuous", isContinuous(traits)},
+                                       {"kInterval", traits.interval},
+                                       {"kClipPlanes", traits.clipPlanes},
+                                       {"kLit", traits.lit},
                                        {"kClipsAtStart", traits.clipsAtStart},
                                        {"kEarlyStop", traits.earlyStop},
                                        {"kMaxSteps", listed ? kMaxStepsListed : kMaxStepsConvex},
+                                       {"kPartsAStep", splitsPieces(traits) ? 2 : 1},
                                        {"kCounts", traits.counts},
-                                       {"kResumes", traits.resumes}});
-    return {.evaluator = "mesh/walk.glsl",
-            .classify = "classify/transfer_function.glsl",
-            .segment = traits.model == scene::RayModel::kVolume ? "segment/average.glsl" : "",
-            .model = std::string{row.chunk},
-            .constants = std::move(constants)};
+                                       {"kResumes", traits.resumes},
+                                       {"kCountsSteps", traits.countsSteps}});
+    shading::Recipe recipe{.evaluator = row.opaque ? "mesh/walk_opaque.glsl" : "mesh/walk.glsl",
+                           .classify = "classify/transfer_function.glsl",
+                           .segment = integrator == nullptr ? "" : std::string{integrator->chunk},
+                           .model = std::string{row.chunk},
+                           .constants = std::move(constants)};
+    if (traits.levels) recipe.model = "model/volume_to_levels.glsl";
+    if (traits.oneColour) {
+        recipe.segment = "segment/line_exact.glsl";
+        recipe.model = "model/opacity.glsl";
+    }
+    return recipe;
 }
 
 std::unique_ptr<WalkState> WalkState::create() {
@@ -95,10 +139,11 @@ std::unique_ptr<WalkState> WalkState::create() {
 
 Result<void> drawWalk(const DrawInputs& inputs, WalkState& state) {
     WalkCache& cache = WalkCache::of(state);
-    // A line crosses a cell once, so few cells cannot make a long ray; lists can be of any length.
-    const bool mayBeLong =
-        !inputs.mesh->convex || inputs.mesh->cells.size() > std::size_t{kMaxStepsConvex};
+    // A line crosses a cell once, so few cells cannot make a long ray; lists can be of any length,
+    // and a piece can have any number of parts.
     WalkTraits traits = traitsOf(inputs);
+    const bool mayBeLong = !inputs.mesh->convex || splitsPieces(traits) ||
+                           inputs.mesh->cells.size() > std::size_t{kMaxStepsConvex};
     traits.counts = mayBeLong;
     const auto program = inputs.programs->ray(walkRecipe(traits, inputs.constants));
     if (!program) return program.error();

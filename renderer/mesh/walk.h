@@ -13,6 +13,7 @@
 #include "renderer/gpu/target.h"
 #include "renderer/plan/plan.h"
 #include "renderer/scene/camera.h"
+#include "renderer/scene/scale.h"
 #include "renderer/scene/scene.h"
 #include "renderer/shading/program_cache.h"
 
@@ -36,11 +37,12 @@ protected:
 /// One time step of one field on the GPU; shared by all views.
 class FieldGpu {
 public:
-    /// `step` is in [0, field.steps.size()).
+    /// `step` is in [0, field.steps.size()). Values are stored as `scale` makes them.
     ///
     /// Errors: as MeshGpu::upload.
     static Result<std::unique_ptr<FieldGpu>> upload(gpu::Device& device, const data::Mesh& mesh,
-                                                    const data::Field& field, int step);
+                                                    const data::Field& field, int step,
+                                                    const scene::ScaleFunction& scale);
     virtual ~FieldGpu() = default;
     FieldGpu(const FieldGpu&) = delete;
     FieldGpu& operator=(const FieldGpu&) = delete;
@@ -76,8 +78,8 @@ struct DrawInputs {
     shading::ProgramCache* programs = nullptr;
     const data::Mesh* mesh = nullptr;
     const MeshGpu* meshGpu = nullptr;
-    const FieldGpu* field = nullptr;  ///< Null where the layer needs no values.
-    data::Association association = data::Association::kVertex;  ///< Of `field`.
+    const FieldGpu* field = nullptr;    ///< f; null where the layer needs no values.
+    const FieldGpu* density = nullptr;  ///< g; null where f serves as g.
     const scene::Layer* layer = nullptr;
     const plan::LayerPlan* plan = nullptr;
     const scene::Camera* camera = nullptr;
@@ -88,20 +90,21 @@ struct DrawInputs {
     /// To be put, before the mesh's own, into every recipe and pass that includes lib/layer.glsl or
     /// classifies by classify/transfer_function.glsl.
     std::vector<shading::Constant> constants;
-    /// Walk: colour 0, 32F, premultiplied, blended "over" (PassState{.blend = Blend::kOver}).
-    /// Surface: colour 0 as before (opaque: alpha 1), colour 1 R32F the distance along the ray
-    /// from its origin, and a depth attachment (DepthTest::kNearest; clip positions by
+    int clipPlanes = 0;  ///< In the layer block.
+    /// Rays: colour 0, 32F, premultiplied, blended "over" (PassState{.blend = Blend::kOver}).
+    /// Opaque models: colour 0 as before (opaque: alpha 1), colour 1 R32F the distance along the
+    /// ray from its origin, and a depth attachment (DepthTest::kNearest; clip positions by
     /// LayerBlock::clipFromData), so that several surfaces hide one another.
     const gpu::Target* target = nullptr;
 };
 
-/// Draws a layer of a ray model (mip, volume) by walking from cell to cell. Rays end at the opaque
-/// distance of their pixel.
+/// Draws a layer of any ray model by walking from cell to cell. Rays end at the opaque distance of
+/// their pixel.
 ///
 /// Errors: kShaderBuild, kOutOfGpuMemory, kLimitExceeded.
 Result<void> drawWalk(const DrawInputs& inputs, WalkState& state);
 
-/// Draws a layer of the model surface: boundary faces as triangles.
+/// Draws a layer of the models surface and wireframe: boundary faces as triangles.
 ///
 /// Errors: kShaderBuild.
 Result<void> drawSurface(const DrawInputs& inputs);
@@ -109,12 +112,20 @@ Result<void> drawSurface(const DrawInputs& inputs);
 /// What tells the programs of drawWalk() apart.
 struct WalkTraits {
     scene::RayModel model = scene::RayModel::kVolume;
-    data::Association association = data::Association::kVertex;
+    scene::Integrator integrator = scene::Integrator::kExact;
+    int valuesAt = 0;        ///< Of f; see shaders/shared/mesh_bindings.glsl.
+    int densityAt = 3;       ///< Of g; 3: f serves as g.
+    bool levels = false;     ///< volume: isosurfaces end its rays.
+    bool oneColour = false;  ///< volume: only opacity is gathered.
+    bool lit = false;        ///< Isosurfaces.
+    bool interval = false;   ///< Only values in an interval count.
+    int clipPlanes = 0;
     bool convex = true;         ///< A line enters the mesh once at most.
     bool clipsAtStart = false;  ///< Rays may start within the mesh.
     bool earlyStop = true;
     bool counts = false;   ///< Rays may need more steps than one draw has.
     bool resumes = false;  ///< They go on where the last draw ended.
+    bool countsSteps = false;
 };
 
 /// The program of drawWalk(). `constants`: as in DrawInputs.
@@ -124,7 +135,10 @@ shading::Recipe walkRecipe(const WalkTraits& traits, std::vector<shading::Consta
 struct SurfaceTraits {
     bool coloured = false;  ///< By the values of a field at `association`.
     bool headlight = true;
-    data::Association association = data::Association::kVertex;
+    bool edges = false;
+    bool interval = false;
+    int clipPlanes = 0;
+    int valuesAt = 0;
 };
 
 /// The vertex file of drawSurface()'s programs.

@@ -12,6 +12,7 @@ namespace volcast::mesh {
 
 namespace {
 
+constexpr std::size_t kCounts = 3;  // In shaders/mesh/counts.glsl.
 constexpr std::size_t kNodeBytes = sizeof(glm::ivec4);
 constexpr std::size_t kFirstNodes = std::size_t{1} << 16;
 constexpr const char* kBoundaryVertex = "mesh/boundary.vert.glsl";
@@ -33,7 +34,7 @@ Result<void> WalkCache::allocate(const DrawInputs& inputs) {
     if (!counts_.valid()) {
         auto counts = gpu::Buffer::create(
             device,
-            {.bytes = 2 * sizeof(std::uint32_t), .updatable = true, .label = "walk counts"});
+            {.bytes = kCounts * sizeof(std::uint32_t), .updatable = true, .label = "walk counts"});
         if (!counts) return counts.error();
         counts_ = std::move(*counts);
     }
@@ -72,7 +73,8 @@ Result<void> WalkCache::drawEntries(const DrawInputs& inputs) {
     const bool convex = inputs.mesh->convex;
     const auto program = inputs.programs->pass(
         kBoundaryVertex, convex ? "mesh/entry_face.frag.glsl" : "mesh/entry_list.frag.glsl",
-        {{"kEndsAtSurfaces", false}});  // Entries are found whatever lies before them.
+        // Entries are found whatever lies before them.
+        {{"kEndsAtSurfaces", false}, {"kDensityAt", shared::kValuesNowhere}});
     if (!program) return program.error();
     headTarget_.begin({});
     headTarget_.clearInteger(0, -1);
@@ -111,6 +113,9 @@ void WalkCache::bind(const DrawInputs& inputs) const {
     if (inputs.field != nullptr) {
         FieldBuffer::of(*inputs.field).values.bindTexels(shared::kFieldUnit);
     }
+    if (inputs.density != nullptr) {
+        FieldBuffer::of(*inputs.density).values.bindTexels(shared::kDensityUnit);
+    }
     heads_.bind(shared::kEntryUnit);
     if (nodes_.valid()) nodes_.bindTexels(shared::kEntryNodeUnit);
     counts_.bindStorage(shared::kCountStorage);
@@ -132,6 +137,10 @@ std::uint32_t WalkCache::readCount(std::size_t index) const {
 
 std::uint32_t WalkCache::unfinishedRays() const {
     return readCount(1);
+}
+
+std::uint32_t WalkCache::steps() const {
+    return readCount(2);
 }
 
 Result<void> WalkCache::bindPausedRays(gpu::Device& device, std::size_t bytesARay) {

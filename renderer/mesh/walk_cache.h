@@ -26,6 +26,9 @@ public:
     /// Rays that the last pass could not finish. Waits for the GPU.
     [[nodiscard]] std::uint32_t unfinishedRays() const;
 
+    /// Steps of all rays of the last pass that counted them, modulo 2^32. Waits for the GPU.
+    [[nodiscard]] std::uint32_t steps() const;
+
     /// Zeroed memory for paused rays of `bytesARay` each, one a pixel, bound to its place.
     ///
     /// Errors: kOutOfGpuMemory, kLimitExceeded.

@@ -4,8 +4,14 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 
 #include "renderer/plan/effects.h"
+#include "renderer/plan/method.h"
+#include "renderer/plan/shared_walks.h"
+#include "renderer/scene/layer_fields.h"
+#include "renderer/scene/ray_models.h"
+#include "renderer/scene/scale.h"
 
 namespace volcast::plan {
 namespace {
@@ -36,12 +42,6 @@ data::Range extinctionOver(const data::TransferFunction& map, data::Range range)
     return found;
 }
 
-const FieldSummary* fieldOf(const Layer& layer, const DatasetSummary& summary) {
-    if (summary.fields.empty()) return nullptr;
-    const auto found = std::ranges::find(summary.fields, layer.field, &FieldSummary::name);
-    return found == summary.fields.end() ? &summary.fields.front() : &*found;
-}
-
 void add(LayerPlan& plan, const char* name, bool on, std::string reason) {
     plan.effects.push_back({.name = name, .on = on, .reason = std::move(reason)});
 }
@@ -50,10 +50,33 @@ void add(LayerPlan& plan, const char* name, bool on, std::string reason) {
 struct Matter {
     const Layer& layer;
     const DatasetSummary& summary;
-    const FieldSummary* field;
-    data::Range extinction;  // Of the field's values; volume model only.
+    const FieldSummary* field;              // The one that rays carry.
+    std::optional<scene::FieldUse> second;  // g, where it has values of its own.
+    scene::LayerMaps maps;
+    data::Range extinction;  // Of the field's values; volume and xray.
     double diagonal;         // Of the bounds, world units.
 };
+
+bool varies(const FieldSummary* field) {
+    return field != nullptr && field->association != data::Association::kCell;
+}
+
+/// Smallest and largest extinction on any ray.
+data::Range extinctionOf(const Matter& matter) {
+    const bool own = !matter.maps.density.points.empty();
+    const FieldSummary* field = matter.second ? matter.second->field : matter.field;
+    if (field == nullptr) return {};
+    const scene::Scale scale =
+        matter.second ? matter.second->scale : scene::mainField(matter.layer, matter.summary).scale;
+    const scene::ScaleFunction function{scale, field->range};
+    return extinctionOver(
+        own ? matter.maps.density : matter.maps.main,
+        {.min = function.ofData(field->range.min), .max = function.ofData(field->range.max)});
+}
+
+bool absorbs(RayModel model) {
+    return model == RayModel::kVolume || model == RayModel::kXray;
+}
 
 void planVisible(LayerPlan& plan, const Matter& matter) {
     if (!matter.layer.visible) {
@@ -73,8 +96,10 @@ void planEarlyStop(LayerPlan& plan, const Matter& matter) {
     // Opacity 1 - 1e-6 is the depth at which model/volume.glsl calls a ray finished.
     constexpr double kFinishedDepth = 13.8;
     const double depth = static_cast<double>(matter.extinction.max) * matter.diagonal;
-    if (matter.layer.model != RayModel::kVolume) {
-        add(plan, kEarlyStop, false, "a larger value may come until the ray's end");
+    if (matter.layer.model == RayModel::kIsosurface) {
+        add(plan, kEarlyStop, true, "the nearest level ends a ray");
+    } else if (matter.layer.model != RayModel::kVolume) {
+        add(plan, kEarlyStop, false, "what is gathered may grow until the ray's end");
     } else if (depth < kFinishedDepth) {
         add(plan, kEarlyStop, false,
             "the deepest ray has an optical depth of " + number(depth) +
@@ -82,6 +107,27 @@ void planEarlyStop(LayerPlan& plan, const Matter& matter) {
     } else {
         add(plan, kEarlyStop, true, "rays may become opaque on their way");
     }
+}
+
+void planSelection(LayerPlan& plan, const Matter& matter, const scene::Scene& scene) {
+    const Layer& layer = matter.layer;
+    add(plan, kInterval, layer.interval.has_value(),
+        layer.interval ? "only values from " + number(layer.interval->min) + " to " +
+                             number(layer.interval->max) + " count"
+                       : "all values count");
+    const std::size_t planes = scene.clipPlanes.size();
+    add(plan, kClipPlanes, planes > 0,
+        planes > 0 ? std::to_string(planes) + " plane(s) cut the data" : "no plane cuts the data");
+    const bool scaled = scene::mainField(layer, matter.summary).scale != scene::Scale{};
+    add(plan, kScale, scaled,
+        scaled ? "values are scaled once, when they are uploaded" : "values are taken as they are");
+}
+
+void planSecondField(LayerPlan& plan, const Matter& matter) {
+    const bool on = matter.second.has_value();
+    add(plan, kSecondField, on,
+        on ? "\"" + matter.second->field->name + "\" is the second field"
+           : "one field serves for colour and extinction");
 }
 
 void planCamera(LayerPlan& plan, const Matter& matter, const scene::Camera& camera) {
@@ -97,15 +143,60 @@ void planCamera(LayerPlan& plan, const Matter& matter, const scene::Camera& came
                 : "the eye is outside the bounds");
 }
 
-void planMeshRays(LayerPlan& plan, const Matter& matter) {
-    plan.evaluator = Evaluator::kMeshWalk;
-    if (matter.layer.model == RayModel::kVolume) plan.integrator = "average";
-    const bool constant = matter.field->association == data::Association::kCell;
+Evaluator evaluatorFor(const Layer& layer) {
+    switch (layer.evaluator) {
+        case scene::MeshEvaluator::kProjection: return Evaluator::kMeshProjection;
+        case scene::MeshEvaluator::kProjectionFaces: return Evaluator::kMeshProjectionFaces;
+        case scene::MeshEvaluator::kAuto:
+        case scene::MeshEvaluator::kWalk: break;
+    }
+    return Evaluator::kMeshWalk;
+}
+
+bool oneColour(const data::TransferFunction& map) {
+    return std::ranges::all_of(map.points, [&map](const data::ControlPoint& point) {
+        return point.colour == map.points.front().colour;
+    });
+}
+
+void planMethod(LayerPlan& plan, const Matter& matter, const scene::Accuracy& wish) {
+    const bool constant = !varies(matter.field) && !(matter.second && varies(matter.second->field));
+    const Method method = chooseMethod(matter.layer, wish, constant);
+    plan.method = method.integrator;
+    const bool choice = scene::row(matter.layer.model).integrators.size() > 1;
+    if (choice) plan.integrator = scene::name(method.integrator);
+    add(plan, kAccuracy, choice, method.reason);
+    const bool splits = choice && matter.layer.model != RayModel::kMipColour &&
+                        plan.method == scene::Integrator::kExact;
+    add(plan, kSplitting, splits,
+        splits ? "pieces are cut where a map bends" : "each cell's piece is taken whole");
+    if (matter.layer.model != RayModel::kVolume) return;
+    const bool uniform =
+        splits && plan.evaluator == Evaluator::kMeshWalk && oneColour(matter.maps.main);
+    add(plan, kColours, !uniform,
+        uniform ? "the map has one colour: opacity alone is gathered" : "the map has colours");
+}
+
+void planMeshRays(LayerPlan& plan, const Matter& matter, const scene::Accuracy& wish) {
+    plan.evaluator = evaluatorFor(matter.layer);
+    const bool constant = !varies(matter.field);
     add(plan, kInterpolation, !constant,
-        constant ? "one value a cell, so the average is exact" : "values vary within a cell");
-    add(plan, kReEntry, !matter.summary.convex,
-        matter.summary.convex ? "the mesh is convex: a ray leaves it once"
-                              : "the mesh is not convex: rays may come back");
+        constant ? "one value a cell" : "values vary within a cell");
+    planMethod(plan, matter, wish);
+    planSecondField(plan, matter);
+    if (plan.evaluator == Evaluator::kMeshWalk) {
+        add(plan, kReEntry, !matter.summary.convex,
+            matter.summary.convex ? "the mesh is convex: a ray leaves it once"
+                                  : "the mesh is not convex: rays may come back");
+    } else {
+        const bool ordered = scene::row(matter.layer.model).combine == scene::Combine::kUnder;
+        add(plan, kVisibilityOrder, ordered,
+            ordered ? "cells are blended front to back" : "the order of cells makes no difference");
+    }
+    if (matter.layer.model == RayModel::kIsosurface) {
+        add(plan, kGradient, matter.layer.headlight,
+            matter.layer.headlight ? "lit from the eye" : "unlit, so no gradient is needed");
+    }
     planEarlyStop(plan, matter);
 }
 
@@ -116,9 +207,11 @@ void planSurface(LayerPlan& plan, const Matter& matter) {
         layer.coloured ? "coloured by the field" : "one colour, so no field is needed");
     add(plan, kHeadlight, layer.headlight,
         layer.headlight ? "lit from the eye" : "unlit, so no normals are needed");
-    const bool varies = layer.coloured && matter.field != nullptr &&
-                        matter.field->association != data::Association::kCell;
-    add(plan, kInterpolation, varies, varies ? "values vary on a face" : "one colour on each face");
+    const bool interpolates = layer.coloured && varies(matter.field);
+    add(plan, kInterpolation, interpolates,
+        interpolates ? "values vary on a face" : "one colour on each face");
+    const bool edges = layer.model == RayModel::kWireframe;
+    add(plan, kEdges, edges, edges ? "edges are drawn over the faces" : "faces alone");
 }
 
 void planStep(LayerPlan& plan, const Matter& matter) {
@@ -167,25 +260,31 @@ LayerPlan planLayer(const scene::Scene& scene, const Layer& layer, const Dataset
                     bool hasSurfaces) {
     Matter matter{.layer = layer,
                   .summary = summary,
-                  .field = fieldOf(layer, summary),
+                  .field = scene::mainField(layer, summary).field,
+                  .second = scene::secondField(layer, summary),
+                  .maps = scene::layerMaps(layer, summary),
                   .extinction = {},
                   .diagonal = glm::length(summary.bounds.max - summary.bounds.min)};
-    if (layer.model == RayModel::kVolume && matter.field != nullptr) {
-        matter.extinction = extinctionOver(layer.map, matter.field->range);
-    }
+    if (absorbs(layer.model)) matter.extinction = extinctionOf(matter);
     LayerPlan plan;
     plan.layer = layer.id;
     planVisible(plan, matter);
-    if (layer.model == RayModel::kSurface) {
+    planSelection(plan, matter, scene);
+    const scene::RayModelRow& row = scene::row(layer.model);
+    if (row.chunk.empty()) {
         planSurface(plan, matter);
         return plan;
     }
     if (summary.isMesh) {
-        planMeshRays(plan, matter);
+        planMeshRays(plan, matter, scene.accuracy);
     } else {
         planVoxels(plan, matter);
     }
     planCamera(plan, matter, scene.camera);
+    if (row.opaque) {
+        add(plan, kEndsAtSurfaces, false, "opaque layers share one depth");
+        return plan;
+    }
     add(plan, kEndsAtSurfaces, hasSurfaces,
         hasSurfaces ? "an opaque layer may stand in the way" : "the scene has no opaque layer");
     return plan;
@@ -218,6 +317,7 @@ std::string idOf(const std::vector<LayerPlan>& layers) {
         hash.add(layer.integrator);
         hash.add(number(layer.stepWorld));
         hash.add(layer.drawn ? "drawn" : "left out");
+        hash.add(layer.drawnWith);
         for (const Effect& effect : layer.effects) {
             hash.add(effect.name);
             hash.add(effect.on ? "on" : "off");
@@ -236,12 +336,13 @@ bool LayerPlan::has(const std::string& name) const {
 
 FramePlan plan(const scene::Scene& scene, const scene::Summaries& summaries) {
     const bool hasSurfaces = std::ranges::any_of(scene.layers, [](const Layer& layer) {
-        return layer.visible && layer.model == RayModel::kSurface;
+        return layer.visible && scene::row(layer.model).opaque;
     });
     FramePlan frame;
     for (const Layer& layer : scene.layers) {
         frame.layers.push_back(planLayer(scene, layer, summaries.at(layer.dataset), hasSurfaces));
     }
+    shareWalks(scene, frame);
     frame.id = idOf(frame.layers);
     return frame;
 }

@@ -7,7 +7,13 @@
 
 namespace volcast::plan {
 
-enum class Evaluator { kMeshWalk, kMeshRaster, kVolumeMarch };
+enum class Evaluator {
+    kMeshWalk,
+    kMeshProjection,       ///< Cells by their front faces.
+    kMeshProjectionFaces,  ///< Cells by all their faces.
+    kMeshRaster,           ///< Boundary faces as triangles.
+    kVolumeMarch,
+};
 
 /// One effect, on or off, and why.
 struct Effect {
@@ -20,10 +26,13 @@ struct Effect {
 struct LayerPlan {
     std::string layer;
     Evaluator evaluator = Evaluator::kMeshWalk;
+    scene::Integrator method = scene::Integrator::kExact;  ///< Meshes; never kAuto.
     std::string integrator;  ///< As in the frame header: "average", "march", or empty.
     double stepWorld = 0.0;  ///< Voxels: the longest distance between samples, world units.
     std::vector<Effect> effects;
     bool drawn = true;  ///< False where nothing can be seen (hidden, transparent everywhere).
+    /// The layer whose walk draws this one too; empty: its own.
+    std::string drawnWith;
 
     /// State of the effect `name`; effects that the plan does not list are off.
     [[nodiscard]] bool has(const std::string& name) const;

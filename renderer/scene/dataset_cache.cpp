@@ -1,6 +1,9 @@
 #include "renderer/scene/dataset_cache.h"
 
 #include <algorithm>
+#include <bit>
+
+#include "renderer/scene/scale.h"
 
 namespace volcast::scene {
 namespace {
@@ -28,6 +31,20 @@ const auto& named(const Items& items, const std::string& name) {
     return found == items.end() ? items.front() : *found;
 }
 
+/// Equal for equal values on the GPU.
+std::string keyOf(const FieldUse& use, int timeStep) {
+    std::string key =
+        std::to_string(timeStep) + "|" + std::to_string(static_cast<int>(use.scale.kind));
+    // Bits, because a change in the last digit is a change.
+    const auto append = [&key](float number) {
+        key += "|" + std::to_string(std::bit_cast<std::uint32_t>(number));
+    };
+    append(use.scale.exponent);
+    if (use.scale.domain) append(use.scale.domain->min);
+    if (use.scale.domain) append(use.scale.domain->max);
+    return key + "|" + use.field->name;
+}
+
 }  // namespace
 
 CachedDataset::CachedDataset(data::Dataset dataset, std::uint64_t generation)
@@ -43,16 +60,16 @@ Result<const mesh::MeshGpu*> CachedDataset::mesh(gpu::Device& device) {
     return mesh_.get();
 }
 
-Result<const mesh::FieldGpu*> CachedDataset::field(gpu::Device& device, const Layer& layer,
-                                                   std::uint64_t frame) {
+Result<const mesh::FieldGpu*> CachedDataset::field(gpu::Device& device, const FieldUse& use,
+                                                   int timeStep, std::uint64_t frame) {
     const auto& mesh = std::get<data::Mesh>(data_);
-    const data::Field& field = named(mesh.fields, layer.field);
-    const FieldKey key{field.name, layer.timeStep};
+    const std::string key = keyOf(use, timeStep);
     auto kept = fields_.find(key);
     if (kept == fields_.end()) {
         trim(fields_, frame);
         Result<std::unique_ptr<mesh::FieldGpu>> uploaded =
-            mesh::FieldGpu::upload(device, mesh, field, layer.timeStep);
+            mesh::FieldGpu::upload(device, mesh, named(mesh.fields, use.field->name), timeStep,
+                                   ScaleFunction{use.scale, use.field->range});
         if (!uploaded) return uploaded.error();
         kept =
             fields_.emplace(key, Kept<std::unique_ptr<mesh::FieldGpu>>{std::move(*uploaded)}).first;
@@ -75,12 +92,6 @@ Result<const volume::ChannelGpu*> CachedDataset::channel(gpu::Device& device, co
     }
     kept->second.frame = frame;
     return &kept->second.part;
-}
-
-data::Association CachedDataset::association(const Layer& layer) const {
-    const auto* mesh = std::get_if<data::Mesh>(&data_);
-    if (mesh == nullptr || mesh->fields.empty()) return data::Association::kVertex;
-    return named(mesh->fields, layer.field).association;
 }
 
 }  // namespace volcast::scene

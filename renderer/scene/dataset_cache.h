@@ -4,11 +4,11 @@
 #include <map>
 #include <memory>
 #include <string>
-#include <utility>
 
 #include "renderer/base/result.h"
 #include "renderer/data/dataset.h"
 #include "renderer/mesh/walk.h"
+#include "renderer/scene/layer_fields.h"
 #include "renderer/scene/scene.h"
 #include "renderer/volume/march.h"
 
@@ -26,15 +26,13 @@ public:
 
     /// Uploads on the first call. Needs a mesh. Errors: as mesh::MeshGpu::upload.
     Result<const mesh::MeshGpu*> mesh(gpu::Device& device);
-    /// The field and time step of `layer`, uploaded when first asked for. Needs a mesh with fields.
+    /// A field at a time step, uploaded when first asked for. Needs a mesh with fields.
     /// Pointers stay good until a call with a larger `frame`. Errors: as mesh::FieldGpu::upload.
-    Result<const mesh::FieldGpu*> field(gpu::Device& device, const Layer& layer,
+    Result<const mesh::FieldGpu*> field(gpu::Device& device, const FieldUse& use, int timeStep,
                                         std::uint64_t frame);
     /// The channel of `layer`. Needs a volume. Errors: as volume::ChannelGpu::upload.
     Result<const volume::ChannelGpu*> channel(gpu::Device& device, const Layer& layer,
                                               std::uint64_t frame);
-    /// How the values of `layer`'s field sit on the mesh.
-    [[nodiscard]] data::Association association(const Layer& layer) const;
 
 private:
     template <class T>
@@ -42,13 +40,11 @@ private:
         T part;
         std::uint64_t frame = 0;  ///< Last used in.
     };
-    using FieldKey = std::pair<std::string, int>;  ///< Name and time step.
-
     data::Dataset data_;
     data::DatasetSummary summary_;
     std::uint64_t generation_;
     std::unique_ptr<mesh::MeshGpu> mesh_;
-    std::map<FieldKey, Kept<std::unique_ptr<mesh::FieldGpu>>> fields_;
+    std::map<std::string, Kept<std::unique_ptr<mesh::FieldGpu>>> fields_;  ///< By keyOf().
     std::map<std::string, Kept<volume::ChannelGpu>> channels_;
 };
 

@@ -4,6 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "renderer/scene/layer_fields.h"
+#include "renderer/scene/scale.h"
+
 namespace volcast::scene {
 namespace {
 
@@ -54,6 +57,17 @@ glm::mat4 gridFromData(const data::Volume& volume) {
     return {matrix};
 }
 
+/// Numbers of single ray models, and the interval in the values that rays carry.
+glm::vec4 gather(const Layer& layer, const data::DatasetSummary& summary) {
+    glm::vec4 numbers{layer.extinctionScale, std::exp2(layer.exposure), 0.0F, 0.0F};
+    const data::FieldSummary* field = findField(summary, layer.field);
+    if (!layer.interval || field == nullptr) return numbers;
+    const ScaleFunction scale{layer.scale, field->range};
+    numbers.z = scale.ofPoint(layer.interval->min);
+    numbers.w = scale.ofPoint(layer.interval->max);
+    return numbers;
+}
+
 }  // namespace
 
 DepthRange depthRange(const Camera& camera, std::span<const data::Box> boxes) {
@@ -76,8 +90,10 @@ DepthRange depthRange(const Camera& camera, std::span<const data::Box> boxes) {
     return {.nearest = nearest, .farthest = std::max(farthest + margin, nearest + margin)};
 }
 
-LayerBlock layerBlock(const Camera& camera, PictureSize size, const DepthRange& depths,
-                      const Layer& layer, const data::Dataset& dataset, double stepWorld) {
+LayerBlock layerBlock(PictureSize size, const DepthRange& depths, const Scene& scene,
+                      const Layer& layer, const data::Dataset& dataset,
+                      const data::DatasetSummary& summary, double stepWorld) {
+    const Camera& camera = scene.camera;
     const data::Volume* volume = std::get_if<data::Volume>(&dataset);
     const glm::dvec3 origin =
         volume != nullptr ? volume->origin : std::get<data::Mesh>(dataset).origin;
@@ -100,6 +116,14 @@ LayerBlock layerBlock(const Camera& camera, PictureSize size, const DepthRange& 
     block.gridFromData = volume != nullptr ? gridFromData(*volume) : glm::mat4(1.0F);
     block.grid = volume != nullptr ? glm::vec4(glm::vec3(volume->size), stepWorld) : glm::vec4(0);
     block.surfaceColour = glm::vec4(layer.surfaceColour, 1.0F);
+    block.edge = glm::vec4(layer.edgeColour, layer.edgeWidth);
+    block.gather = gather(layer, summary);
+    for (std::size_t i = 0; i < scene.clipPlanes.size(); ++i) {
+        const ClipPlane& plane = scene.clipPlanes[i];
+        const double length = glm::length(plane.normal);
+        const glm::dvec3 normal = plane.normal / length;
+        block.clipPlanes[i] = vector(normal, plane.offset / length - glm::dot(normal, origin));
+    }
     return block;
 }
 

@@ -25,7 +25,8 @@ DepthRange depthRange(const Camera& camera, std::span<const data::Box> boxes);
 
 /// The block of one layer; see shaders/shared/layer_block.glsl. Computed in double relative to the
 /// dataset's own origin, so that neither is rounded far away from the world's origin.
-LayerBlock layerBlock(const Camera& camera, PictureSize size, const DepthRange& depths,
-                      const Layer& layer, const data::Dataset& dataset, double stepWorld);
+LayerBlock layerBlock(PictureSize size, const DepthRange& depths, const Scene& scene,
+                      const Layer& layer, const data::Dataset& dataset,
+                      const data::DatasetSummary& summary, double stepWorld);
 
 }  // namespace volcast::scene

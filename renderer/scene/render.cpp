@@ -6,6 +6,8 @@
 #include "renderer/gpu/timer.h"
 #include "renderer/plan/effects.h"
 #include "renderer/scene/dataset_cache.h"
+#include "renderer/scene/layer_content.h"
+#include "renderer/scene/layer_fields.h"
 #include "renderer/scene/ray_models.h"
 #include "renderer/scene/scene_diff.h"
 #include "renderer/scene/validate.h"
@@ -38,6 +40,7 @@ struct LayerDraw {
     LayerState* state = nullptr;
     const mesh::MeshGpu* mesh = nullptr;
     const mesh::FieldGpu* field = nullptr;
+    const mesh::FieldGpu* density = nullptr;
     const volume::ChannelGpu* channel = nullptr;
     std::vector<shading::Constant> constants;
 };
@@ -56,7 +59,7 @@ struct Frame {
 };
 
 bool isOpaque(const LayerDraw& draw) {
-    return draw.plan->evaluator == plan::Evaluator::kMeshRaster;
+    return row(draw.layer->model).opaque;
 }
 
 Result<void> checkTarget(PictureSize size, const FrameTarget& target) {
@@ -152,7 +155,7 @@ Result<FrameInfo> DeviceRenderer::render(std::uint64_t view, const Scene& scene,
         CachedDataset& dataset = *datasets_.at(layer.dataset);
         frame.generations[layer.dataset] = dataset.generation();
         const plan::LayerPlan& planned = info.plan.layers[i];
-        if (!planned.drawn) continue;
+        if (!planned.drawn || !planned.drawnWith.empty()) continue;
         LayerDraw& draw = frame.draws.emplace_back();
         draw.index = i;
         draw.layer = &layer;
@@ -259,9 +262,12 @@ Result<void> DeviceRenderer::prepareLayer(Frame& frame, LayerDraw& draw) {
     draw.state = &state;
     draw.constants.push_back({"kEndsAtSurfaces", draw.plan->has(plan::kEndsAtSurfaces)});
     if (needsField(*draw.layer)) {
-        Result<void> set = state.map.set(device_, draw.layer->map);
+        Result<void> set =
+            state.map.set(device_, layerContent(*draw.layer, *draw.plan, frame.scene->layers,
+                                                frame.plan->layers, draw.dataset->summary()));
         if (!set) return set;
-        draw.constants.push_back(state.map.constant());
+        const std::vector<shading::Constant> constants = state.map.constants();
+        draw.constants.insert(draw.constants.end(), constants.begin(), constants.end());
     }
     if (!draw.dataset->summary().isMesh) {
         const Result<const volume::ChannelGpu*> channel =
@@ -274,17 +280,24 @@ Result<void> DeviceRenderer::prepareLayer(Frame& frame, LayerDraw& draw) {
     if (!mesh) return mesh.error();
     draw.mesh = *mesh;
     if (!needsField(*draw.layer)) return {};
-    const Result<const mesh::FieldGpu*> field = draw.dataset->field(device_, *draw.layer, frame_);
+    const FieldUse use = mainField(*draw.layer, draw.dataset->summary());
+    const auto field = draw.dataset->field(device_, use, draw.layer->timeStep, frame_);
     if (!field) return field.error();
     draw.field = *field;
+    const auto second = secondField(*draw.layer, draw.dataset->summary());
+    if (!second) return {};
+    const auto density = draw.dataset->field(device_, *second, draw.layer->timeStep, frame_);
+    if (!density) return density.error();
+    draw.density = *density;
     return {};
 }
 
 Result<void> DeviceRenderer::sendBlocks(Frame& frame) {
     std::vector<LayerBlock> blocks(frame.scene->layers.size());
     for (const LayerDraw& draw : frame.draws) {
-        blocks[draw.index] = layerBlock(frame.scene->camera, frame.size, frame.depths, *draw.layer,
-                                        draw.dataset->data(), draw.plan->stepWorld);
+        blocks[draw.index] =
+            layerBlock(frame.size, frame.depths, *frame.scene, *draw.layer, draw.dataset->data(),
+                       draw.dataset->summary(), draw.plan->stepWorld);
     }
     return frame.view->blocks.set(device_, frame.scene->background, blocks);
 }
@@ -330,7 +343,7 @@ Result<void> DeviceRenderer::drawLayer(const Frame& frame, const LayerDraw& draw
         .mesh = &std::get<data::Mesh>(draw.dataset->data()),
         .meshGpu = draw.mesh,
         .field = draw.field,
-        .association = draw.dataset->association(*draw.layer),
+        .density = draw.density,
         .layer = draw.layer,
         .plan = draw.plan,
         .camera = &frame.scene->camera,
@@ -338,8 +351,11 @@ Result<void> DeviceRenderer::drawLayer(const Frame& frame, const LayerDraw& draw
         .size = frame.size,
         .cameraVersion = frame.cameraVersion,
         .constants = draw.constants,
+        .clipPlanes = static_cast<int>(frame.scene->clipPlanes.size()),
         .target = isOpaque(draw) ? &frame.picture->opaquePass : &frame.picture->transparentPass};
-    return isOpaque(draw) ? mesh::drawSurface(inputs) : mesh::drawWalk(inputs, *draw.state->walk);
+    return draw.plan->evaluator == plan::Evaluator::kMeshRaster
+               ? mesh::drawSurface(inputs)
+               : mesh::drawWalk(inputs, *draw.state->walk);
 }
 
 Result<void> DeviceRenderer::resolve(const Frame& frame) {

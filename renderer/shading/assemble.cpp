@@ -21,9 +21,12 @@ struct Slot {
 // In the order of emission: each slot may call what those before it define.
 const std::array<Slot, 4>& slots() {
     static const std::array<Slot, 4> kSlots{
-        Slot{"classify", &Recipe::classify, {"classify", "transparentBetween"}},
+        Slot{"classify", &Recipe::classify, {"classify", "matterAt", "transparentBetween"}},
         Slot{"segment", &Recipe::segment, {"integrateSegment"}},
-        Slot{"model", &Recipe::model, {"beginRay", "stepRay", "skipsBetween", "endRay"}},
+        Slot{"model",
+             &Recipe::model,
+             {"beginRay", "enterData", "stepRay", "skipsBetween", "endRay", "hitDistance",
+              "packRay", "unpackRay"}},
         Slot{"evaluator", &Recipe::evaluator, {"main"}}};
     return kSlots;
 }

@@ -7,8 +7,9 @@ namespace volcast::worker {
 
 namespace {
 
-constexpr std::array kEvaluators{plan::Evaluator::kMeshWalk, plan::Evaluator::kMeshRaster,
-                                 plan::Evaluator::kVolumeMarch};
+constexpr std::array kEvaluators{plan::Evaluator::kMeshWalk, plan::Evaluator::kMeshProjection,
+                                 plan::Evaluator::kMeshProjectionFaces,
+                                 plan::Evaluator::kMeshRaster, plan::Evaluator::kVolumeMarch};
 
 plan::Evaluator evaluatorFrom(std::string_view text) {
     for (const plan::Evaluator evaluator : kEvaluators) {
@@ -22,6 +23,8 @@ plan::Evaluator evaluatorFrom(std::string_view text) {
 const char* name(plan::Evaluator evaluator) noexcept {
     switch (evaluator) {
         case plan::Evaluator::kMeshWalk: return "mesh walk";
+        case plan::Evaluator::kMeshProjection: return "mesh projection";
+        case plan::Evaluator::kMeshProjectionFaces: return "mesh projection of all faces";
         case plan::Evaluator::kMeshRaster: return "mesh raster";
         case plan::Evaluator::kVolumeMarch: return "volume march";
     }
@@ -36,6 +39,7 @@ void put(const plan::FramePlan& plan, internal::v1::Rendered* message) {
         added->set_evaluator(name(layer.evaluator));
         added->set_integrator(layer.integrator);
         added->set_drawn(layer.drawn);
+        added->set_drawn_with(layer.drawnWith);
         added->set_step_world(layer.stepWorld);
         for (const plan::Effect& effect : layer.effects) {
             internal::v1::Effect* entry = added->add_effects();
@@ -54,6 +58,7 @@ plan::FramePlan planFrom(const internal::v1::Rendered& message) {
         added.evaluator = evaluatorFrom(layer.evaluator());
         added.integrator = layer.integrator();
         added.drawn = layer.drawn();
+        added.drawnWith = layer.drawn_with();
         added.stepWorld = layer.step_world();
         for (const internal::v1::Effect& effect : layer.effects()) {
             added.effects.push_back(

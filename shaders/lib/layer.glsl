@@ -1,12 +1,7 @@
-// The layer's block, and the ray through a pixel.
+// The ray through a pixel, and where opaque layers end it.
 // Constants: kEndsAtSurfaces (there are opaque layers that rays end at).
 #include "contract/ray.glsl"
-#include "shared/bindings.glsl"
-#include "shared/layer_block.glsl"
-
-layout(std140, binding = kLayerBinding) uniform LayerUniforms {
-    LayerBlock layer;
-};
+#include "lib/layer_uniforms.glsl"
 
 // Distance to the nearest opaque surface of this pixel, from the ray's origin; huge where none is.
 layout(binding = kOpaqueDistanceUnit) uniform sampler2D opaqueDistances;

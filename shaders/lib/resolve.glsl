@@ -17,7 +17,10 @@ vec3 srgbFrom(vec3 linear) {
 void main() {
     vec4 front = texelFetch(layers, ivec2(gl_FragCoord.xy), 0);
     float behind = (1.0 - front.a) * background.a;
-    float opacity = front.a + behind;
     vec3 premultiplied = front.rgb + behind * background.rgb;
+    // Straight alpha cannot say "light that hides nothing", which splats are: it needs the opacity
+    // of its brightest channel.
+    float brightest = max(premultiplied.r, max(premultiplied.g, premultiplied.b));
+    float opacity = max(front.a + behind, min(brightest, 1.0));
     picture = vec4(srgbFrom(opacity > 0.0 ? premultiplied / opacity : vec3(0.0)), opacity);
 }

@@ -1,6 +1,6 @@
 // A mesh as its passes read it. Boundary face f: texel 2 f holds its cell and its vertices a, b, c,
 // counter-clockwise seen from outside; texel 2 f + 1 the boundary faces across ab, bc, ca (-1: none)
-// and the cell's fourth vertex.
+// and the cell's fourth vertex. Constants: kDensityAt: where a second field has its values.
 #include "shared/bindings.glsl"
 #include "shared/mesh_bindings.glsl"
 #include "shared/mesh_block.glsl"
@@ -11,6 +11,7 @@ layout(std140, binding = kMeshBinding) uniform MeshUniforms {
 
 layout(binding = kVertexUnit) uniform samplerBuffer cameraVertices;
 layout(binding = kBoundaryUnit) uniform isamplerBuffer boundaryRecords;
+layout(binding = kDensityUnit) uniform samplerBuffer densityValues;
 
 // The line of one pixel, in camera space: xy = offset + z slope.
 struct Sight {
@@ -29,6 +30,7 @@ struct Corner {
     vec2 at;
     float depth;
     float value;
+    float density;  // of the second field, where that has values at vertices
     int id;
 };
 
@@ -36,7 +38,9 @@ Corner cornerOf(int id, Sight sight) {
     vec4 vertex = texelFetch(cameraVertices, id);
     // The same bits for a vertex whichever cell asks: neighbours must agree on every sign.
     precise vec2 at = (vertex.xy - sight.offset) - vertex.z * sight.slope;
-    return Corner(at, vertex.z, vertex.w, id);
+    float density = 0.0;
+    if (kDensityAt == kValuesAtVertices) density = texelFetch(densityValues, id).r;
+    return Corner(at, vertex.z, vertex.w, density, id);
 }
 
 // Twice the signed area of (origin, p, q); > 0 where q is counter-clockwise of p. Without fused

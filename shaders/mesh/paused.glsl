@@ -11,7 +11,8 @@ const int kFinished = 2;
 struct PausedRay {
     ivec4 vertices;  // a, b, c, apex
     ivec4 place;     // cell, last entry's face, one of the words above
-    vec4 numbers;    // depth, value, last entry's depth
+    vec4 numbers;    // depth, value, last entry's depth, density
+    Segment rest;    // of the piece in hand
     RayState state;
 };
 
@@ -23,6 +24,10 @@ void countUnfinished() {
     atomicAdd(unfinishedCount, 1u);
 }
 
+void countSteps(int steps) {
+    atomicAdd(stepCount, uint(steps));
+}
+
 int slotOf(ivec2 pixel) {
     return pixel.y * int(layer.viewport.x) + pixel.x;
 }
@@ -32,24 +37,27 @@ bool isFinished(ivec2 pixel) {
 }
 
 // False where the ray has not started.
-bool resume(ivec2 pixel, Sight sight, inout RayState state, inout Walk walk,
+bool resume(ivec2 pixel, Sight sight, inout RayState state, inout Walk walk, inout Segment rest,
             inout EntryQueue queue) {
     PausedRay ray = pausedRays[slotOf(pixel)];
     if (ray.place.z != kPaused) return false;
     state = ray.state;
+    rest = ray.rest;
     Corner a = cornerOf(ray.vertices.x, sight);
     Corner b = cornerOf(ray.vertices.y, sight);
     Corner c = cornerOf(ray.vertices.z, sight);
     vec3 weights = max(vec3(areaOf(b, c), areaOf(c, a), areaOf(a, b)), 0.0);
-    walk = Walk(ray.place.x, ray.vertices.w, a, b, c, weights, ray.numbers.x, ray.numbers.y);
+    // The cell before matters where a ray has ended; such rays are not resumed.
+    walk = Walk(ray.place.x, ray.vertices.w, a, b, c, weights, ray.numbers.x, ray.numbers.y,
+                ray.numbers.w, -1, a);
     queue.lastFace = ray.place.y;
     queue.lastDepth = ray.numbers.z;
     return true;
 }
 
-void pause(ivec2 pixel, bool ended, RayState state, Walk walk, EntryQueue queue) {
+void pause(ivec2 pixel, bool ended, RayState state, Walk walk, Segment rest, EntryQueue queue) {
     pausedRays[slotOf(pixel)] =
         PausedRay(ivec4(walk.a.id, walk.b.id, walk.c.id, walk.apex),
                   ivec4(walk.cell, queue.lastFace, ended ? kFinished : kPaused, 0),
-                  vec4(walk.depth, walk.value, queue.lastDepth, 0.0), state);
+                  vec4(walk.depth, walk.value, queue.lastDepth, walk.density), rest, state);
 }

@@ -2,8 +2,6 @@
 // Uses: classify.
 #include "mesh/surface.glsl"
 
-layout(location = 0) in float vertexValue;
-
 void main() {
     shadeFace(classify(vertexValue).rgb);
 }

@@ -1,4 +1,4 @@
-// A field's values in a cell. Constants: kValuesAt.
+// Fields' values in a cell. Constants: kValuesAt, kDensityAt: where f and g have theirs.
 #include "mesh/walk_state.glsl"
 
 layout(binding = kFieldUnit) uniform samplerBuffer fieldValues;
@@ -13,25 +13,57 @@ float pick(vec4 list, int rank) {
     return (rank & 1) == 0 ? pair.x : pair.y;
 }
 
-// Values at the corners of `walk.cell`, of which `q` is the apex. Stored corner values are ordered
-// by vertex number.
-CellValues valuesIn(Walk walk, Corner q) {
-    if (kValuesAt == kValuesAtVertices) {
-        return CellValues(vec3(walk.a.value, walk.b.value, walk.c.value), q.value);
-    }
-    if (kValuesAt == kValuesAtCells) {
-        float value = texelFetch(fieldValues, walk.cell).r;
-        return CellValues(vec3(value), value);
-    }
-    vec4 stored = texelFetch(fieldValues, walk.cell);
-    ivec4 ids = ivec4(walk.a.id, walk.b.id, walk.c.id, q.id);
+// Values that a cell stores for its corners, which are ordered by vertex number.
+CellValues storedIn(vec4 stored, ivec4 ids) {
     ivec4 ranks = ivec4(lessThan(ids.xxxx, ids)) + ivec4(lessThan(ids.yyyy, ids)) +
                   ivec4(lessThan(ids.zzzz, ids)) + ivec4(lessThan(ids.wwww, ids));
     return CellValues(vec3(pick(stored, ranks.x), pick(stored, ranks.y), pick(stored, ranks.z)),
                       pick(stored, ranks.w));
 }
 
+// f at the corners a, b, c and q of `cell`.
+CellValues valuesIn(int cell, Corner a, Corner b, Corner c, Corner q) {
+    if (kValuesAt == kValuesAtVertices) {
+        return CellValues(vec3(a.value, b.value, c.value), q.value);
+    }
+    vec4 stored = texelFetch(fieldValues, cell);
+    if (kValuesAt == kValuesAtCells) return CellValues(vec3(stored.r), stored.r);
+    return storedIn(stored, ivec4(a.id, b.id, c.id, q.id));
+}
+
+// The same of g.
+CellValues densitiesIn(int cell, Corner a, Corner b, Corner c, Corner q) {
+    if (kDensityAt == kValuesNowhere) return CellValues(vec3(0.0), 0.0);
+    if (kDensityAt == kValuesAtVertices) {
+        return CellValues(vec3(a.density, b.density, c.density), q.density);
+    }
+    vec4 stored = texelFetch(densityValues, cell);
+    if (kDensityAt == kValuesAtCells) return CellValues(vec3(stored.r), stored.r);
+    return storedIn(stored, ivec4(a.id, b.id, c.id, q.id));
+}
+
 // The value on a face; `known` where the face is seen edge-on and has no weights.
-float valueOn(vec3 values, vec3 weights, float known) {
-    return kValuesAt == kValuesAtCells ? values.x : meanOf(values, weights, known);
+float valueOn(int valuesAt, vec3 values, vec3 weights, float known) {
+    return valuesAt == kValuesAtCells ? values.x : meanOf(values, weights, known);
+}
+
+// |cosine| between a line of `slope` and the gradient of f in a cell of which corners and values
+// are known. The line only shears the corners, so the gradient's part along it is that along depth.
+float facingIn(Corner a, Corner b, Corner c, Corner q, CellValues values, vec2 slope) {
+    vec3 origin = vec3(q.at, q.depth);
+    vec3 u = vec3(a.at, a.depth) - origin;
+    vec3 v = vec3(b.at, b.depth) - origin;
+    vec3 w = vec3(c.at, c.depth) - origin;
+    // Scaled, so that products of cells and values of any size stay in range.
+    vec3 size = max(max(abs(u), abs(v)), abs(w));
+    float scale = 1.0 / max(max(size.x, size.y), max(size.z, 1.0e-37));
+    u *= scale;
+    v *= scale;
+    w *= scale;
+    vec3 rise = values.front - values.apex;
+    rise /= max(max(abs(rise.x), abs(rise.y)), max(abs(rise.z), 1.0e-37));
+    vec3 sheared = rise.x * cross(v, w) + rise.y * cross(w, u) + rise.z * cross(u, v);
+    vec3 gradient = vec3(sheared.xy, sheared.z - dot(slope, sheared.xy));
+    float length2 = dot(gradient, gradient) * (1.0 + dot(slope, slope));
+    return length2 > 0.0 ? min(abs(sheared.z) * inversesqrt(length2), 1.0) : 0.0;
 }

@@ -8,6 +8,9 @@ struct Walk {
     vec3 weights;  // of a, b, c at the line, >= 0; areas, not divided by their sum
     float depth;
     float value;   // of the field there, as the cell before saw it
+    float density; // of the second field there
+    int left;      // the cell before, and its vertex that is not on the face
+    Corner behind;
 };
 
 // The mean of three values by areas that are not negative, between the values also after rounding,
@@ -23,7 +26,8 @@ float meanOf(vec3 values, vec3 weights, float known) {
 Walk walkOn(int cell, int apex, Corner a, Corner b, Corner c, vec3 areas) {
     vec3 weights = max(areas, 0.0);
     return Walk(cell, apex, a, b, c, weights, depthOn(a, b, c, weights),
-                meanOf(vec3(a.value, b.value, c.value), weights, a.value));
+                meanOf(vec3(a.value, b.value, c.value), weights, a.value),
+                meanOf(vec3(a.density, b.density, c.density), weights, a.density), -1, a);
 }
 
 Walk walkFrom(Entry entry) {
@@ -31,8 +35,8 @@ Walk walkFrom(Entry entry) {
 }
 
 Walk outside() {
-    Corner none = Corner(vec2(0.0), 0.0, 0.0, 0);
-    return Walk(-1, 0, none, none, none, vec3(0.0), 0.0, 0.0);
+    Corner none = Corner(vec2(0.0), 0.0, 0.0, 0.0, 0);
+    return Walk(-1, 0, none, none, none, vec3(0.0), 0.0, 0.0, 0.0, -1, none);
 }
 
 // Tries the face (a, b, c), counter-clockwise from outside, opposite `apex`, as the one through

@@ -6,13 +6,19 @@ struct RayState {
     bool met;
 };
 
+const float kNothing = -3.4e38;
+
 RayState beginRay(Ray ray) {
-    return RayState(-3.4e38, false);
+    return RayState(kNothing, false);
 }
 
-bool stepRay(inout RayState state, Segment piece) {
-    state.largest = max(state.largest, max(piece.front, piece.back));
+void enterData(inout RayState state, Segment piece) {
+}
+
+bool stepRay(inout RayState state, inout Segment rest) {
+    state.largest = max(state.largest, max(rest.front, rest.back));
     state.met = true;
+    rest.extent = -1.0;
     return false;
 }
 
@@ -20,6 +26,18 @@ bool skipsBetween(RayState state, float lo, float hi) {
     return hi <= state.largest;
 }
 
-vec4 endRay(RayState state) {
+vec4 endRay(RayState state, float facing) {
     return state.met ? vec4(classify(state.largest).rgb, 1.0) : vec4(0.0);
+}
+
+float hitDistance(RayState state) {
+    return kNoHit;
+}
+
+vec4 packRay(RayState state) {
+    return vec4(state.largest);
+}
+
+RayState unpackRay(vec4 stored) {
+    return RayState(stored.r, stored.r > kNothing);
 }

@@ -2,19 +2,24 @@
 // Source: N. Max, Optical Models for Direct Volume Rendering, IEEE TVCG 1(2), 1995, section 4.
 // Uses: classify, segment.
 struct RayState {
-    vec3 colour;   // premultiplied, linear
-    float opacity; // of all pieces so far
+    MapCursor cursor;
+    vec3 colour;    // premultiplied, linear
+    float opacity;  // of all pieces so far
 };
 
 // A ray this opaque is finished: the rest changes no channel by more than a 16-bit step.
 const float kFinishedOpacity = 1.0 - 1.0e-6;
 
 RayState beginRay(Ray ray) {
-    return RayState(vec3(0.0), 0.0);
+    return RayState(noCursor(), vec3(0.0), 0.0);
 }
 
-bool stepRay(inout RayState state, Segment piece) {
-    vec4 share = integrateSegment(piece);
+void enterData(inout RayState state, Segment piece) {
+    placeCursor(state.cursor, piece);
+}
+
+bool stepRay(inout RayState state, inout Segment rest) {
+    vec4 share = integrateSegment(state.cursor, rest);
     float through = 1.0 - state.opacity;
     state.colour += through * share.rgb;
     state.opacity += through * share.a;
@@ -25,6 +30,18 @@ bool skipsBetween(RayState state, float lo, float hi) {
     return transparentBetween(lo, hi);
 }
 
-vec4 endRay(RayState state) {
+vec4 endRay(RayState state, float facing) {
     return vec4(state.colour, state.opacity);
+}
+
+float hitDistance(RayState state) {
+    return kNoHit;
+}
+
+vec4 packRay(RayState state) {
+    return vec4(state.colour, state.opacity);
+}
+
+RayState unpackRay(vec4 stored) {
+    return RayState(noCursor(), stored.rgb, stored.a);
 }

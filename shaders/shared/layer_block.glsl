@@ -20,4 +20,7 @@ struct LayerBlock {
     mat4 gridFromData;       // voxels: grid point (i, j, k) has grid coordinates (i, j, k)
     vec4 grid;               // voxels: number of grid points along x, y, z; w: step, world units
     vec4 surfaceColour;      // surface: linear RGB
+    vec4 edge;               // wireframe: linear RGB, width in pixels
+    vec4 gather;             // x: extinction scale, y: 2^exposure; interval of f: z: lowest, w: highest
+    vec4 clipPlanes[6];      // data space: kept where dot(xyz, position) >= w
 };

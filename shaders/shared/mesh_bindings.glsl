@@ -8,6 +8,7 @@ const int kBoundaryUnit = 7;   // 2 texels a boundary face, see mesh/mesh.glsl
 const int kFieldUnit = 8;      // values as they are stored
 const int kEntryUnit = 9;      // a pixel's first boundary face, or the head of its list
 const int kEntryNodeUnit = 10; // nodes of all lists
+const int kDensityUnit = 11;   // values of the second field as they are stored
 
 // Storage blocks
 const int kVertexStorage = 0;
@@ -22,3 +23,4 @@ const int kHeadImage = 0;
 const int kValuesAtVertices = 0;
 const int kValuesAtCells = 1;
 const int kValuesAtCorners = 2;
+const int kValuesNowhere = 3;  // there is no such field

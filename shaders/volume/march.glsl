@@ -62,7 +62,8 @@ vec2 brickAt(March march, int i, out int beyond) {
 bool stepSample(inout RayState state, March march, int i) {
     float value = valueAt(positionOf(march, i));
     float distance = march.begin + float(i) * march.dt;
-    return stepRay(state, Segment(value, value, march.dt, distance)) && kEarlyStop;
+    Segment piece = Segment(value, value, value, value, march.dt, distance);
+    return stepRay(state, piece) && kEarlyStop;
 }
 
 RayState marched(Ray ray, March march) {
@@ -97,5 +98,5 @@ void main() {
     float steps = clamp(ceil((end - march.begin) / layer.grid.w), 1.0, float(kMaxRaySamples));
     march.samples = int(steps);
     march.dt = (end - march.begin) / steps;
-    colour = endRay(marched(ray, march));
+    colour = endRay(marched(ray, march), 1.0);
 }

@@ -20,8 +20,8 @@ protected:
     std::vector<glm::vec4> classified(const data::TransferFunction& map,
                                       const std::vector<float>& values) {
         MapTable table;
-        must(table.set(device(), map));
-        search_ = std::get<int>(table.constant().value);
+        must(table.set(device(), {.map = map}));
+        search_ = std::get<int>(table.constants().front().value);
         shading::ProgramCache programs{
             device(), [](std::string_view path) -> std::optional<std::string> {
                 if (path == "probe.glsl") {
@@ -35,7 +35,7 @@ protected:
                 return shading::embeddedChunks()(path);
             }};
         const auto* program =
-            must(programs.pass(shading::kFullScreenVertex, "probe.glsl", {table.constant()}));
+            must(programs.pass(shading::kFullScreenVertex, "probe.glsl", table.constants()));
         const auto buffer = must(gpu::Buffer::create(
             device(),
             {.bytes = values.size() * 4, .texels = gpu::TexelFormat::kR32F, .label = "values"},
@@ -151,11 +151,11 @@ TEST_F(MapTableTest, NeighbouringFloatsDoNotOverflowTheSlope) {
 
 TEST_F(MapTableTest, AnEditThatFitsIsOneUpdateAndTheSameMapNone) {
     MapTable table;
-    must(table.set(device(), evenMap(5)));
+    must(table.set(device(), {.map = evenMap(5)}));
     const auto before = device().counters().bufferUploads;
-    must(table.set(device(), evenMap(5)));
+    must(table.set(device(), {.map = evenMap(5)}));
     EXPECT_EQ(device().counters().bufferUploads, before);
-    must(table.set(device(), evenMap(7)));
+    must(table.set(device(), {.map = evenMap(7)}));
     EXPECT_EQ(device().counters().bufferUploads, before + 1);
 }
 

@@ -2,8 +2,8 @@
 #include <cstddef>
 
 #include "renderer/plan/effects.h"
-#include "renderer/shading/program_cache.h"
 #include "renderer/scene/ray_models.h"
+#include "renderer/shading/program_cache.h"
 #include "renderer/shading/shared.h"
 #include "renderer/volume/march.h"
 #include "tests/support/gl_test.h"
@@ -12,6 +12,15 @@ namespace volcast {
 namespace {
 
 using support::must;
+
+/// What a layer gives to a recipe.
+std::vector<shading::Constant> layerConstants(int search, bool endsAtSurfaces) {
+    return {{"kMapSearch", search},
+            {"kDensitySearch", 0},
+            {"kTwoMaps", false},
+            {"kPreintegratedSide", 256},
+            {"kEndsAtSurfaces", endsAtSurfaces}};
+}
 
 class Recipes : public support::GlTest {
 protected:
@@ -32,7 +41,7 @@ TEST_F(Recipes, EveryModelOfVolumesMarchesInEveryVariant) {
             }
             const auto program = programs_.ray(volume::marchRecipe(
                 plan, static_cast<scene::RayModel>(row), (variant >> 3 & 1) != 0,
-                {{"kMapSearch", variant % 3}, {"kEndsAtSurfaces", (variant >> 4 & 1) != 0}}));
+                layerConstants(variant % 3, (variant >> 4 & 1) != 0)));
             ASSERT_TRUE(program.has_value()) << program.error().message;
             ++built;
         }
@@ -42,8 +51,8 @@ TEST_F(Recipes, EveryModelOfVolumesMarchesInEveryVariant) {
 
 TEST_F(Recipes, TheLayerBlockLiesInMemoryAsTheDriverSeesIt) {
     plan::LayerPlan plan;
-    const auto* program = must(programs_.ray(volume::marchRecipe(
-        plan, scene::RayModel::kVolume, true, {{"kMapSearch", 0}, {"kEndsAtSurfaces", true}})));
+    const auto* program = must(programs_.ray(
+        volume::marchRecipe(plan, scene::RayModel::kVolume, true, layerConstants(0, true))));
     using shading::shared::LayerBlock;
     EXPECT_EQ(program->blockBytes("LayerUniforms"), static_cast<int>(sizeof(LayerBlock)));
     const auto offset = [&](const char* member) {

@@ -16,10 +16,10 @@
 #include "renderer/mesh/shared.h"
 #include "renderer/mesh/walk.h"
 #include "renderer/plan/effects.h"
+#include "renderer/scene/ray_models.h"
 #include "renderer/shading/embedded_chunks.h"
 #include "renderer/shading/glsl_scan.h"
 #include "renderer/shading/program_cache.h"
-#include "renderer/scene/ray_models.h"
 #include "renderer/volume/march.h"
 #include "tests/support/import_files.h"
 
@@ -33,6 +33,8 @@ using shading::Constant;
 bool bit(int number, int i) {
     return (number >> i & 1) != 0;
 }
+
+constexpr int kWalkVariants = 12;
 
 /// Runs a command; its status and what it printed.
 std::pair<int, std::string> run(const std::string& command) {
@@ -144,6 +146,7 @@ protected:
 
     void addMarches();
     void addWalks();
+    void addWalk(const scene::RayModelRow& row, const scene::IntegratorRow& integrator, int bits);
     void addSurfaces();
     void addOtherPasses();
 
@@ -166,8 +169,14 @@ private:
     // NOLINTEND(readability-identifier-naming)
 };
 
-constexpr std::array kAssociations{data::Association::kVertex, data::Association::kCell,
-                                   data::Association::kCellVertex};
+/// What layers give to recipes, in the variant `bits`.
+std::vector<Constant> layerConstants(int bits) {
+    return {{"kMapSearch", bits % 3},
+            {"kDensitySearch", bits % 3},
+            {"kTwoMaps", bit(bits, 0)},
+            {"kPreintegratedSide", 256},
+            {"kEndsAtSurfaces", bit(bits, 1)}};
+}
 
 void Validator::addMarches() {
     for (std::size_t row = 0; row < scene::rayModels().size(); ++row) {
@@ -180,54 +189,70 @@ void Validator::addMarches() {
                 plan.effects.push_back(
                     {.name = effect, .on = bit(variant, effects++), .reason = "test"});
             }
-            addRay(volume::marchRecipe(
-                       plan, static_cast<scene::RayModel>(row), bit(variant, 3),
-                       {{"kMapSearch", variant % 3}, {"kEndsAtSurfaces", bit(variant, 4)}}),
+            addRay(volume::marchRecipe(plan, static_cast<scene::RayModel>(row), bit(variant, 3),
+                                       layerConstants(variant >> 3)),
                    shading::kFullScreenVertex);
         }
     }
 }
 
 void Validator::addWalks() {
-    for (std::size_t row = 0; row < scene::rayModels().size(); ++row) {
-        if (!scene::rayModels()[row].onMeshes || scene::rayModels()[row].chunk.empty()) {
-            continue;
-        }
-        for (const data::Association association : kAssociations) {
-            for (int variant = 0; variant < 64; ++variant) {
-                if (bit(variant, 4) && !bit(variant, 3)) continue;  // Only counted rays go on.
-                addRay(mesh::walkRecipe(
-                           {.model = static_cast<scene::RayModel>(row),
-                            .association = association,
-                            .convex = bit(variant, 0),
-                            .clipsAtStart = bit(variant, 1),
-                            .earlyStop = bit(variant, 2),
-                            .counts = bit(variant, 3),
-                            .resumes = bit(variant, 4)},
-                           {{"kMapSearch", variant % 3}, {"kEndsAtSurfaces", bit(variant, 5)}}),
-                       shading::kFullScreenVertex);
+    // Every model with every integrator; what else tells programs apart takes turns, so that each
+    // meets each of them with both of its values.
+    int turn = 0;
+    for (const scene::RayModelRow& row : scene::rayModels()) {
+        if (!row.onMeshes || row.chunk.empty()) continue;
+        for (const scene::IntegratorRow& integrator : row.integrators) {
+            for (int variant = 0; variant < kWalkVariants; ++variant) {
+                addWalk(row, integrator, variant * 37 + turn++);
             }
         }
     }
 }
 
+void Validator::addWalk(const scene::RayModelRow& row, const scene::IntegratorRow& integrator,
+                        int bits) {
+    const bool counts = bit(bits, 4);
+    mesh::WalkTraits traits{.model = row.model,
+                            .integrator = integrator.integrator,
+                            .valuesAt = bits % 3,
+                            .densityAt = (bits / 3) % 4,
+                            .interval = bit(bits, 0),
+                            .clipPlanes = bit(bits, 1) ? 2 : 0,
+                            .convex = bit(bits, 2),
+                            .clipsAtStart = bit(bits, 3),
+                            .earlyStop = bit(bits, 0),
+                            .counts = counts,
+                            .resumes = counts && bit(bits, 5),
+                            .countsSteps = bit(bits, 6)};
+    traits.lit = row.model == scene::RayModel::kIsosurface && bit(bits, 1);
+    if (row.model == scene::RayModel::kVolume) {
+        traits.levels = bit(bits, 5);
+        traits.lit = traits.levels;
+        traits.oneColour = !traits.levels && integrator.integrator == scene::Integrator::kExact;
+    }
+    addRay(mesh::walkRecipe(traits, layerConstants(bits)), shading::kFullScreenVertex);
+}
+
 void Validator::addSurfaces() {
-    for (const data::Association association : kAssociations) {
-        for (int variant = 0; variant < 8; ++variant) {
-            std::vector<Constant> constants{{"kEndsAtSurfaces", bit(variant, 2)}};
-            if (bit(variant, 0)) constants.push_back({"kMapSearch", variant % 3});
-            addRay(mesh::surfaceRecipe({.coloured = bit(variant, 0),
-                                        .headlight = bit(variant, 1),
-                                        .association = association},
-                                       std::move(constants)),
-                   mesh::kSurfaceVertex);
-        }
+    for (int variant = 0; variant < 48; ++variant) {
+        std::vector<Constant> constants{{"kEndsAtSurfaces", false}};
+        if (bit(variant, 0)) constants = layerConstants(variant);
+        addRay(mesh::surfaceRecipe({.coloured = bit(variant, 0),
+                                    .headlight = bit(variant, 1),
+                                    .edges = bit(variant, 2),
+                                    .interval = bit(variant, 3),
+                                    .clipPlanes = bit(variant, 1) ? 6 : 0,
+                                    .valuesAt = variant / 16},
+                                   std::move(constants)),
+               mesh::kSurfaceVertex);
     }
 }
 
 void Validator::addOtherPasses() {
     for (const char* fragment : {"mesh/entry_face.frag.glsl", "mesh/entry_list.frag.glsl"}) {
-        addPass("mesh/boundary.vert.glsl", fragment, {{"kEndsAtSurfaces", false}});
+        addPass("mesh/boundary.vert.glsl", fragment,
+                {{"kEndsAtSurfaces", false}, {"kDensityAt", 3}});
     }
     for (const int place : {mesh::shared::kValuesAtVertices, mesh::shared::kValuesAtCells}) {
         addCompute("mesh/transform.comp.glsl", {{"kValuesAt", place}});
@@ -240,7 +265,7 @@ TEST_F(Validator, EveryProgramIsGlslToAnIndependentCompiler) {
     addMarches();
     EXPECT_EQ(programs_, 64);
     addWalks();
-    EXPECT_EQ(programs_, 64 + 288);
+    EXPECT_EQ(programs_, 64 + 17 * kWalkVariants);
     addSurfaces();
     addOtherPasses();
     EXPECT_GT(stages_.size(), 300U);

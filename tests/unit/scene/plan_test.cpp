@@ -109,7 +109,7 @@ TEST_F(Plan, OnlyNonConvexMeshesAreReEntered) {
     summaries_["mesh"].convex = true;
     EXPECT_FALSE(planned().has(kReEntry));
     EXPECT_EQ(planned().evaluator, Evaluator::kMeshWalk);
-    EXPECT_EQ(planned().integrator, "average");
+    EXPECT_EQ(planned().integrator, "exact");
 }
 
 TEST_F(Plan, OneValueACellNeedsNoInterpolation) {

@@ -203,13 +203,15 @@ TEST(FrameMessage, PlanComesBackEqual) {
                     .stepWorld = 0.25,
                     .effects = {{.name = "empty bricks", .on = true, .reason = "some are"},
                                 {.name = "shading", .on = false, .reason = "unlit"}},
-                    .drawn = true},
+                    .drawn = true,
+                    .drawnWith = {}},
                    {.layer = "b",
                     .evaluator = plan::Evaluator::kMeshRaster,
                     .integrator = {},
                     .stepWorld = 0.0,
                     .effects = {},
-                    .drawn = false}}};
+                    .drawn = false,
+                    .drawnWith = "a"}}};
     internal::v1::Rendered message;
     put(plan, &message);
     const plan::FramePlan back = planFrom(message);
@@ -221,6 +223,7 @@ TEST(FrameMessage, PlanComesBackEqual) {
         EXPECT_EQ(back.layers[i].integrator, plan.layers[i].integrator);
         EXPECT_EQ(back.layers[i].stepWorld, plan.layers[i].stepWorld);
         EXPECT_EQ(back.layers[i].drawn, plan.layers[i].drawn);
+        EXPECT_EQ(back.layers[i].drawnWith, plan.layers[i].drawnWith);
         ASSERT_EQ(back.layers[i].effects.size(), plan.layers[i].effects.size());
     }
     EXPECT_TRUE(back.layers[0].has("empty bricks"));

@@ -34,6 +34,7 @@ protected:
         {"lib/a.glsl", "float a() { return 1.0; }\n"},
         {"c.glsl",
          "#include \"lib/a.glsl\"\nvec4 classify(float v) { return vec4(a()); }\n"
+         "vec4 matterAt(float f, float g) { return classify(f); }\n"
          "bool transparentBetween(float lo, float hi) { return false; }\n"},
         {"s.glsl",
          "#include \"lib/a.glsl\"\n\nvec4 integrateSegment(Segment p) { return classify(p.f); }\n"},
@@ -41,7 +42,11 @@ protected:
          "struct RayState { vec4 c; };\nRayState beginRay(Ray r) { return RayState(vec4(0)); }\n"
          "bool stepRay(inout RayState s, Segment p) { return false; }\n"
          "bool skipsBetween(RayState s, float lo, float hi) { return false; }\n"
-         "vec4 endRay(RayState s) { return s.c; }\n"},
+         "void enterData(inout RayState s, Segment p) {}\n"
+         "vec4 endRay(RayState s, float facing) { return s.c; }\n"
+         "float hitDistance(RayState s) { return 0.0; }\n"
+         "vec4 packRay(RayState s) { return s.c; }\n"
+         "RayState unpackRay(vec4 v) { return RayState(v); }\n"},
         {"e.glsl", "out vec4 colour;\nvoid main() {\n    colour = vec4(0.0);\n}\n"}};
 };
 
