@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <map>
 #include <string>
@@ -10,6 +11,7 @@
 
 #include "renderer/data/mesh_builder.h"
 #include "renderer/reference/reference.h"
+#include "renderer/scene/ray_models.h"
 #include "tests/support/mesh_phantoms.h"
 
 /// Scenes of one mesh for the reference, and what they look like.
