@@ -14,8 +14,11 @@ public:
         // Far above what rounding moves a vertex by, far below any cell that counts.
         constexpr double kMargin = 1e-12;
         const glm::dvec3 size = glm::abs(ray.origin());
-        margin_ = kMargin * (largest + std::max({size.x, size.y, size.z}));
-        origin_ = ray.origin();
+        const double margin = kMargin * (largest + std::max({size.x, size.y, size.z}));
+        lowOrigin_ = ray.origin() + margin;
+        highOrigin_ = ray.origin() - margin;
+        span_.begin -= margin;
+        span_.end += margin;
         for (int axis = 0; axis < 3; ++axis) {
             constexpr double kHuge = 1e200;  // Stands for 1 / 0: infinity times 0 is no number.
             const double rate = ray.direction()[axis];
@@ -24,21 +27,16 @@ public:
     }
 
     [[nodiscard]] bool meets(const glm::vec3& low, const glm::vec3& high) const {
-        double front = span_.begin - margin_;
-        double back = span_.end + margin_;
-        for (int axis = 0; axis < 3; ++axis) {
-            const double a = (low[axis] - margin_ - origin_[axis]) * inverse_[axis];
-            const double b = (high[axis] + margin_ - origin_[axis]) * inverse_[axis];
-            front = std::max(front, std::min(a, b));
-            back = std::min(back, std::max(a, b));
-        }
-        return front <= back;
+        const glm::dvec3 a = (glm::dvec3{low} - lowOrigin_) * inverse_;
+        const glm::dvec3 b = (glm::dvec3{high} - highOrigin_) * inverse_;
+        const glm::dvec3 near = glm::min(a, b), far = glm::max(a, b);
+        return std::max(std::max(near.x, near.y), std::max(near.z, span_.begin)) <=
+               std::min(std::min(far.x, far.y), std::min(far.z, span_.end));
     }
 
 private:
     Span span_;
-    glm::dvec3 origin_{0.0}, inverse_{0.0};
-    double margin_ = 0.0;
+    glm::dvec3 lowOrigin_{0.0}, highOrigin_{0.0}, inverse_{0.0};
 };
 
 /// The piece at or after `from` that `wanted` names, among those that may tie with `distance`.

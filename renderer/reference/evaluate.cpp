@@ -1,6 +1,7 @@
 #include "renderer/reference/evaluate.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "renderer/reference/surface.h"
@@ -79,10 +80,10 @@ void Evaluator::meetBoundary(const LayerData& data, const Ray& ray, const glm::d
     const scene::Layer& layer = *data.layer;
     const data::Mesh& mesh = data.caster->mesh();
     const auto found = nearestBoundary(mesh, ray, span, data.interval, scratch);
-    mixIn(sight.shape, found ? static_cast<std::uint64_t>(found->points) : 0U);
+    mixIn(sight.folds, found ? static_cast<std::uint64_t>(found->points) : 0U);
     if (!found || found->distance >= hit.distance) return;
     hit.distance = found->distance;
-    hit.layer = static_cast<std::size_t>(&data - layers_.data());
+    hit.facing = found->facing;
     hit.colour =
         layer.coloured ? glm::dvec3{data.colour.at(found->f)} : glm::dvec3{layer.surfaceColour};
     if (layer.headlight) hit.colour *= found->facing;
@@ -102,17 +103,25 @@ void Evaluator::meetBoundary(const LayerData& data, const Ray& ray, const glm::d
 void Evaluator::meetLevel(const LayerData& data, const Ray& ray, const Span& span, Scratch& scratch,
                           Hit& hit, Sight& sight) {
     const auto found = firstLevel(scratch.pieces, span, data.levels);
-    mixIn(sight.shape, found ? static_cast<std::uint64_t>(found->crossings) : 0U);
-    if (!found) return;
-    const auto level = std::ranges::lower_bound(data.levels, found->level) - data.levels.begin();
-    mixIn(sight.shape, static_cast<std::uint64_t>(level));
-    if (found->distance >= hit.distance) return;
+    mixIn(sight.folds, found ? static_cast<std::uint64_t>(found->crossings) : 0U);
+    if (!found || found->distance >= hit.distance) return;
     hit.distance = found->distance;
+    hit.level = found->level;
+    hit.facing = facingGradient(data.caster->mesh(), found->cell, data.f, ray.direction);
     hit.colour =
         glm::dvec3{data.twoFields ? data.extinction.at(found->g) : data.colour.at(found->level)};
-    if (data.layer->headlight) {
-        hit.colour *= facingGradient(data.caster->mesh(), found->cell, data.f, ray.direction);
-    }
+    if (data.layer->headlight) hit.colour *= hit.facing;
+}
+
+bool Evaluator::apart(const Sight& a, const Sight& b) const {
+    if (a.shape != b.shape) return true;
+    if (a.folds == b.folds || !std::isfinite(a.distance)) return false;
+    // A smooth surface is sqrt(2) pixels times its slope apart from one corner to the next. What
+    // lies behind a fold knows nothing of the fold's slope: it is the farther one's that counts.
+    const Sight& far = a.distance > b.distance ? a : b;
+    const double cosine = std::max(far.facing, 1e-9);
+    const double slope = std::sqrt(std::max(1.0 - cosine * cosine, 0.0)) / cosine;
+    return std::abs(a.distance - b.distance) > 2.0 * lens_.pixelSize(far.distance) * (slope + 1.0);
 }
 
 Sight Evaluator::look(const glm::dvec2& place, bool colours, Scratch& scratch) const {
@@ -134,6 +143,9 @@ Sight Evaluator::look(const glm::dvec2& place, bool colours, Scratch& scratch) c
         if (hit.distance < before) hit.layer = i;
     }
     mixIn(sight.shape, hit.layer);
+    mixIn(sight.shape, std::bit_cast<std::uint64_t>(hit.level));
+    sight.distance = hit.distance;
+    sight.facing = hit.facing;
     sight.colour = std::isfinite(hit.distance) ? glm::dvec4{hit.colour, 1.0} : glm::dvec4{0.0};
     span.end = std::min(span.end, hit.distance);
     for (const LayerData& data : layers_) {

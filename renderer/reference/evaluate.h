@@ -22,9 +22,12 @@ struct Scratch {
 /// What one ray of a scene sees.
 struct Sight {
     glm::dvec4 colour{0.0};  ///< Premultiplied.
-    /// Equal for neighbouring rays unless a silhouette passes between them: how often each layer's
-    /// mesh, interval or level is entered and left, and which surface is in front.
+    /// Which surface and level is in front, and how often layers that end no rays are entered.
     std::uint64_t shape = 0;
+    /// How often surfaces and levels are met on all of the ray: a change is a fold, seen or hidden.
+    std::uint64_t folds = 0;
+    double distance = std::numeric_limits<double>::infinity();  ///< Where the ray ended.
+    double facing = 1.0;  ///< |cosine| of the ray to the normal there.
     std::uint64_t pieces = 0;
 };
 
@@ -38,12 +41,18 @@ public:
     /// The ray through `place` (pixels). Without `colours` only the shape of what it sees.
     [[nodiscard]] Sight look(const glm::dvec2& place, bool colours, Scratch& scratch) const;
 
+    /// True where a silhouette passes between the rays through two places a pixel apart: what they
+    /// see differs in shape, or in folds and by more than a smooth surface explains in distance.
+    [[nodiscard]] bool apart(const Sight& a, const Sight& b) const;
+
     /// True where a layer's picture may jump between pixels without a silhouette.
     [[nodiscard]] bool mayJump() const noexcept { return mayJump_; }
 
 private:
     struct Hit {
         double distance = std::numeric_limits<double>::infinity();
+        double facing = 1.0;
+        double level = 0.0;
         glm::dvec3 colour{0.0};
         std::size_t layer = std::numeric_limits<std::size_t>::max();
     };

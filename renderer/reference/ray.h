@@ -34,6 +34,11 @@ public:
     [[nodiscard]] double pixelsToLine(const glm::dvec2& place, const glm::dvec3& a,
                                       const glm::dvec3& b) const;
 
+    /// World size of a pixel at a distance.
+    [[nodiscard]] double pixelSize(double distance) const {
+        return perspective_ ? perPixel_ * distance : perPixel_;
+    }
+
 private:
     /// Right, up and 1 (perspective: towards the scene) of a place, in units of the picture plane.
     [[nodiscard]] glm::dvec3 onPlane(const glm::dvec2& place) const;

@@ -1,6 +1,8 @@
 #include "renderer/reference/reference.h"
 
 #include <algorithm>
+#include <array>
+#include <numbers>
 #include <string>
 #include <thread>
 
@@ -10,6 +12,8 @@
 namespace volcast::reference {
 namespace {
 
+constexpr std::array kCorners{glm::ivec2{-1, -1}, glm::ivec2{1, -1}, glm::ivec2{-1, 1},
+                              glm::ivec2{1, 1}};
 constexpr std::size_t kBatch = 16;  // Rays a thread takes at a time.
 
 /// Calls `work(i, scratch)` for i below `count` on `threads` threads; false if it was cancelled.
@@ -38,21 +42,20 @@ bool forAll(std::size_t count, int threads, const std::atomic<bool>* cancelled, 
     return !stopped;
 }
 
-/// Pixels to look at for their shape alone as well: those asked for, and all around them. Sorted,
-/// each once, as one number in a picture with a frame of one pixel.
+/// Pixels to look at for their shape alone as well: those asked for, and the four at their corners
+/// (one of these lies beyond any straight line within a pixel). Sorted, each once, as one number in
+/// a picture with a frame of one pixel.
 class Places {
 public:
     Places(std::span<const glm::ivec2> pixels, scene::PictureSize size) : width_{size.x + 2L} {
-        places_.reserve(9 * pixels.size());
+        places_.reserve(5 * pixels.size());
         for (const glm::ivec2& pixel : pixels) {
-            for (int around = 0; around < 9; ++around) {
-                places_.push_back(numberOf(pixel + neighbour(around)));
-            }
+            places_.push_back(numberOf(pixel));
+            for (const glm::ivec2& corner : kCorners) places_.push_back(numberOf(pixel + corner));
         }
         std::ranges::sort(places_);
         places_.erase(std::unique(places_.begin(), places_.end()), places_.end());
     }
-    static glm::ivec2 neighbour(int i) { return {i % 3 - 1, i / 3 - 1}; }
     [[nodiscard]] std::size_t size() const { return places_.size(); }
     [[nodiscard]] std::size_t indexOf(const glm::ivec2& pixel) const {
         const auto found = std::ranges::lower_bound(places_, numberOf(pixel));
@@ -73,19 +76,20 @@ private:
 
 /// True where the picture changes by more than it should within a small way of `place`.
 ///
-/// An evaluator in float32 may be off by 1/2000 of a pixel in a picture of 8192 pixels (2^-24 of
-/// it), a quarter of the way; the picture's slope there would be above one unit a pixel.
+/// An evaluator in float32 may be off by 1/8000 of a pixel in a picture of 1024 pixels (2^-23 of
+/// it); one of three points around lies beyond any straight line within half the way. The slope of
+/// a picture that is taken for a jump is above one unit a pixel.
 bool jumps(const Evaluator& evaluator, const glm::dvec2& place, const Sight& centre,
            Scratch& scratch) {
-    constexpr double kWay = 1.0 / 512.0;   // Pixels.
-    constexpr double kStep = 1.0 / 512.0;  // Of a channel.
-    for (int i = 1; i < 9; i += 2) {
-        const Sight near =
-            evaluator.look(place + kWay * glm::dvec2{Places::neighbour(i)}, true, scratch);
+    constexpr double kWay = 1.0 / 1024.0;   // Pixels.
+    constexpr double kStep = 1.0 / 1024.0;  // Of a channel.
+    const double high = 0.5 * std::numbers::sqrt3;
+    const std::array around{glm::dvec2{1.0, 0.0}, glm::dvec2{-0.5, high}, glm::dvec2{-0.5, -high}};
+    return std::ranges::any_of(around, [&](const glm::dvec2& way) {
+        const Sight near = evaluator.look(place + kWay * way, true, scratch);
         const glm::dvec4 change = glm::abs(near.colour - centre.colour);
-        if (std::max({change.r, change.g, change.b, change.a}) > kStep) return true;
-    }
-    return false;
+        return std::max({change.r, change.g, change.b, change.a}) > kStep;
+    });
 }
 
 Result<void> check(const scene::Scene& scene, scene::PictureSize size,
@@ -152,13 +156,11 @@ Result<Picture> draw(const scene::Scene& scene, const Casters& casters, scene::P
     Picture picture{.size = size, .pixels = {}, .nearEdge = {}};
     for (const glm::ivec2& pixel : pixels) {
         const std::size_t own = places.indexOf(pixel);
-        bool near = jumping[own] != 0;
-        for (int around = 0; around < 9 && !near; ++around) {
-            const std::size_t other = places.indexOf(pixel + Places::neighbour(around));
-            near = sights[other].shape != sights[own].shape;
-        }
+        const bool near = std::ranges::any_of(kCorners, [&](const glm::ivec2& corner) {
+            return evaluator.apart(sights[own], sights[places.indexOf(pixel + corner)]);
+        });
         picture.pixels.push_back(sights[own].colour);
-        picture.nearEdge.push_back(near ? 1 : 0);
+        picture.nearEdge.push_back(near || jumping[own] != 0 ? 1 : 0);
         picture.piecesVisited += sights[own].pieces;
     }
     return picture;

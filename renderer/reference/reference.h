@@ -23,7 +23,7 @@ struct Picture {
     scene::PictureSize size{0};
     /// One a requested pixel: linear RGB, premultiplied, and opacity; without the background.
     std::vector<glm::dvec4> pixels;
-    /// One a requested pixel. 1: within one pixel of a silhouette, or within 1/512 pixel of a jump
+    /// One a requested pixel. 1: within one pixel of a silhouette, or within 1/2000 pixel of a jump
     /// of the picture, so that an evaluator which rounds may be on the other side of it.
     std::vector<char> nearEdge;
     std::uint64_t piecesVisited = 0;  ///< Cells met by the requested rays, over all layers.

@@ -29,6 +29,11 @@ EdgeSide sideOf(const Point& p, const Point& q) {
     return {.area = 0.0, .positive = p.x >= q.x};
 }
 
+bool sameSide(double a, double b, double c, double d) {
+    return std::min(std::min(a, b), std::min(c, d)) > 0.0 ||
+           std::max(std::max(a, b), std::max(c, d)) < 0.0;
+}
+
 int largestAxis(const glm::dvec3& v) {
     const glm::dvec3 size = glm::abs(v);
     if (size.x >= size.y && size.x >= size.z) return 0;
@@ -55,20 +60,27 @@ SkewRay::SkewRay(const Ray& ray, const glm::dvec3& meshOrigin)
       shearY_{ray.direction[y_] / ray.direction[z_]},
       distancePerZ_{1.0 / ray.direction[z_]} {}
 
-SkewRay::Corner SkewRay::seen(const data::Mesh& mesh, int cell, int corner) const {
-    const int vertex = mesh.cells[static_cast<std::size_t>(cell)][corner];
-    const glm::dvec3 from = glm::dvec3{mesh.vertices[static_cast<std::size_t>(vertex)]} - origin_;
-    return {.x = from[x_] - shearX_ * from[z_],
-            .y = from[y_] - shearY_ * from[z_],
-            .z = from[z_],
+SkewRay::Corner SkewRay::seen(const glm::vec3& point, int vertex, int corner) const {
+    const std::array<double, 3> from{point.x - origin_.x, point.y - origin_.y, point.z - origin_.z};
+    const double z = from[static_cast<std::size_t>(z_)];
+    return {.x = from[static_cast<std::size_t>(x_)] - shearX_ * z,
+            .y = from[static_cast<std::size_t>(y_)] - shearY_ * z,
+            .z = z,
             .vertex = vertex,
             .corner = corner};
 }
 
 std::optional<Piece> SkewRay::through(const data::Mesh& mesh, int cell, const FieldValues& f,
                                       const FieldValues& g) const {
-    std::array<Corner, 4> at{seen(mesh, cell, 0), seen(mesh, cell, 1), seen(mesh, cell, 2),
-                             seen(mesh, cell, 3)};
+    const glm::ivec4& ids = mesh.cells[static_cast<std::size_t>(cell)];
+    const glm::vec3* points = mesh.vertices.data();
+    std::array<Corner, 4> at{seen(points[ids.x], ids.x, 0), seen(points[ids.y], ids.y, 1),
+                             seen(points[ids.z], ids.z, 2), seen(points[ids.w], ids.w, 3)};
+    // Most cells that are tried lie to one side of the ray.
+    if (sameSide(at[0].x, at[1].x, at[2].x, at[3].x) ||
+        sameSide(at[0].y, at[1].y, at[2].y, at[3].y)) {
+        return std::nullopt;
+    }
     bool turned = false;  // Whether the corners in the order of their ids make a negative cell.
     constexpr std::array<std::pair<int, int>, 5> kNetwork{{{0, 1}, {2, 3}, {0, 2}, {1, 3}, {1, 2}}};
     for (const auto& [i, j] : kNetwork) {

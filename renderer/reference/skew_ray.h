@@ -35,7 +35,7 @@ private:
         double x, y, z;
         int vertex, corner;
     };
-    [[nodiscard]] Corner seen(const data::Mesh& mesh, int cell, int corner) const;
+    [[nodiscard]] Corner seen(const glm::vec3& point, int vertex, int corner) const;
 
     glm::dvec3 origin_, direction_;
     int x_, y_, z_;  ///< Which world axis plays which.
