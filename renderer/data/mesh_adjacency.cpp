@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 #include <numeric>
+#include <utility>
 
 namespace volcast::data {
 
@@ -156,10 +157,24 @@ std::int32_t cornerNotIn(const glm::ivec3& face, const glm::ivec3& other) {
     return -1;
 }
 
+/// The mean of the boundary's vertices, each counted once a face: inside every convex body.
+glm::dvec3 centreOf(std::span<const glm::dvec3> vertices, const Adjacency& adjacency) {
+    glm::dvec3 sum{0.0};
+    for (const BoundaryFace& face : adjacency.boundaryFaces) {
+        for (int i = 0; i < 3; ++i) sum += vertices[static_cast<std::size_t>(face.vertices[i])];
+    }
+    return sum / (3.0 * static_cast<double>(adjacency.boundaryFaces.size()));
+}
+
 /// Distances taken for 0: what the rounding of double leaves of a flat boundary.
-double flatness(std::span<const glm::dvec3> vertices) {
+double flatness(std::span<const glm::dvec3> vertices, const Adjacency& adjacency) {
     double size = 0.0;
-    for (const glm::dvec3& v : vertices) size = std::max(size, glm::length(v));
+    for (const BoundaryFace& face : adjacency.boundaryFaces) {
+        for (int i = 0; i < 3; ++i) {
+            size =
+                std::max(size, glm::length(vertices[static_cast<std::size_t>(face.vertices[i])]));
+        }
+    }
     return 1e-12 * size;
 }
 
@@ -175,12 +190,19 @@ Adjacency findAdjacency(std::span<const glm::ivec4> cells, std::size_t vertexCou
     return adjacency;
 }
 
+Adjacency completeAdjacency(std::span<const glm::ivec4> cells, std::vector<glm::ivec4> neighbours) {
+    Adjacency adjacency;
+    adjacency.neighbours = std::move(neighbours);
+    collectBoundary(cells, adjacency);
+    joinBoundary(adjacency);
+    return adjacency;
+}
+
 bool isConvex(std::span<const glm::dvec3> vertices, const Adjacency& adjacency) {
-    if (adjacency.facesNotManifold > 0 || vertices.empty()) return false;
+    if (adjacency.facesNotManifold > 0 || adjacency.boundaryFaces.empty()) return false;
     const auto at = [&vertices](std::int32_t id) { return vertices[static_cast<std::size_t>(id)]; };
-    const glm::dvec3 centre = std::accumulate(vertices.begin(), vertices.end(), glm::dvec3{0.0}) /
-                              static_cast<double>(vertices.size());
-    const double tolerance = flatness(vertices);
+    const glm::dvec3 centre = centreOf(vertices, adjacency);
+    const double tolerance = flatness(vertices, adjacency);
     double angle = 0.0;
     for (std::size_t b = 0; b < adjacency.boundaryFaces.size(); ++b) {
         const glm::ivec3& face = adjacency.boundaryFaces[b].vertices;

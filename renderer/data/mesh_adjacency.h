@@ -27,11 +27,15 @@ struct Adjacency {
 /// `cells` as in Mesh: a < b < min(c, d), positively oriented.
 Adjacency findAdjacency(std::span<const glm::ivec4> cells, std::size_t vertexCount);
 
+/// The rest of what touches what, where the neighbours are known; facesNotManifold stays 0.
+Adjacency completeAdjacency(std::span<const glm::ivec4> cells, std::vector<glm::ivec4> neighbours);
+
 /// True only where every line meets the mesh in one piece, up to the rounding of double.
 ///
-/// The boundary must be closed, have no concave edge, and be seen from the mean vertex from inside
-/// and once in each direction: it then bounds a convex body. Faces that are flat only up to float32
-/// count as concave; such a mesh is drawn as one that is not convex, which is slower, not wrong.
+/// The boundary must be closed, have no concave edge, and be seen from the mean of its vertices
+/// from inside and once in each direction: it then bounds a convex body. Faces that are flat only
+/// up to float32 count as concave; such a mesh is drawn as one that is not convex, which is slower,
+/// not wrong.
 bool isConvex(std::span<const glm::dvec3> vertices, const Adjacency& adjacency);
 
 }  // namespace volcast::data
