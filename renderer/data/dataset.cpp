@@ -19,6 +19,7 @@ public:
     explicit Histogram(Range range) : range_{range}, counts_(kBins, 0) {}
 
     void add(double value) {
+        if (std::isnan(value)) return;
         const double width = static_cast<double>(range_.max) - range_.min;
         const double t = width > 0.0 ? (value - range_.min) / width : 0.0;
         const double bin = std::clamp(std::floor(t * kBins), 0.0, static_cast<double>(kBins - 1));
@@ -51,7 +52,8 @@ FieldSummary summarizeField(const Field& field) {
             .association = field.association,
             .range = field.range,
             .steps = static_cast<int>(field.steps.size()),
-            .histogram = histogram.take()};
+            .histogram = histogram.take(),
+            .cellsWithoutValue = field.cellsWithoutValue};
 }
 
 template <class T>
@@ -142,6 +144,19 @@ DatasetSummary summarizeVolume(const Volume& volume) {
 DatasetSummary summarize(const Dataset& dataset) {
     if (const Mesh* mesh = std::get_if<Mesh>(&dataset)) return summarizeMesh(*mesh);
     return summarizeVolume(std::get<Volume>(dataset));
+}
+
+std::vector<std::string> warningsOf(const DatasetSummary& summary) {
+    std::vector<std::string> warnings;
+    for (const FieldSummary& field : summary.fields) {
+        if (field.cellsWithoutValue == 0) continue;
+        const bool one = field.cellsWithoutValue == 1;
+        warnings.push_back(std::to_string(field.cellsWithoutValue) +
+                           (one ? " cell has" : " cells have") + " no value (NaN) in \"" +
+                           field.name + "\" and " + (one ? "is" : "are") +
+                           " left out where it is drawn");
+    }
+    return warnings;
 }
 
 }  // namespace volcast::data

@@ -27,6 +27,7 @@ struct FieldSummary {
     Range range;
     int steps = 1;
     std::vector<std::uint32_t> histogram;  ///< Counts in equal bins over `range`.
+    std::uint64_t cellsWithoutValue = 0;   ///< Cells of a mesh with a NaN in any step.
 };
 
 /// What is worth knowing of a dataset without holding it; all that plans and clients need.
@@ -50,5 +51,8 @@ struct DatasetSummary {
 
 /// Histograms have 256 bins over at most 2^14 evenly spread samples.
 DatasetSummary summarize(const Dataset& dataset);
+
+/// What users should know of the data before they trust a picture of it; one sentence each.
+std::vector<std::string> warningsOf(const DatasetSummary& summary);
 
 }  // namespace volcast::data

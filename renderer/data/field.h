@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -21,16 +22,18 @@ struct Range {
     friend bool operator==(const Range&, const Range&) = default;
 };
 
-/// One named scalar field on a mesh, at one or more time steps. All values are finite.
+/// One named scalar field on a mesh, at one or more time steps. Values are finite, or NaN where
+/// there is none: cells that would interpolate it are left out where the field is drawn.
 struct Field {
     std::string name;
     std::string unit;  ///< As the file says; may be empty.
     Association association = Association::kVertex;
-    Range range;  ///< Over all steps.
+    Range range;  ///< Over all steps, NaN apart; never empty.
     /// Values a step: cells (kCell), vertices (kVertex) or 4 * cells (kCellVertex, in the cell's
     /// vertex order).
     std::vector<base::Array<float>> steps;
-    std::vector<double> times;  ///< One a step; {0} where the file has no time.
+    std::vector<double> times;            ///< One a step; {0} where the file has no time.
+    std::uint64_t cellsWithoutValue = 0;  ///< Cells with a NaN in any step.
 };
 
 }  // namespace volcast::data

@@ -6,6 +6,7 @@
 
 #include "renderer/data/mesh_adjacency.h"
 #include "renderer/data/mesh_order.h"
+#include "renderer/data/mesh_restrict.h"
 #include "renderer/data/text.h"
 
 namespace volcast::data {
@@ -91,11 +92,11 @@ Result<void> checkValues(const FieldInput& field, std::size_t expected) {
                                                          std::to_string(expected));
         }
         for (std::size_t i = 0; i < expected; ++i) {
-            if (!fitsFloat(values[i])) {
+            if (!std::isnan(values[i]) && !fitsFloat(values[i])) {
                 return fail(ErrorCode::kInvalidArgument,
                             step + ": the value of " + itemName(field.association) + " " +
                                 std::to_string(i) + " is " + std::to_string(values[i]) +
-                                ", not a finite float32");
+                                ", neither a finite float32 nor NaN");
             }
         }
     }
@@ -145,7 +146,8 @@ std::size_t sourceOf(const OrderedMesh& ordered, Association association, std::s
     return 0;
 }
 
-Field buildField(FieldInput input, const OrderedMesh& ordered) {
+/// Errors: kInvalidArgument (every value is NaN).
+Result<Field> buildField(FieldInput input, const OrderedMesh& ordered) {
     const std::size_t vertices = ordered.vertices.size();
     const std::size_t cells = ordered.cells.size();
     const std::size_t count = input.association == Association::kVertex ? vertices
@@ -163,10 +165,16 @@ Field buildField(FieldInput input, const OrderedMesh& ordered) {
         for (std::size_t i = 0; i < count; ++i) {
             const auto value = static_cast<float>(source[sourceOf(ordered, input.association, i)]);
             values[i] = value;
+            if (std::isnan(value)) continue;
             field.range.min = std::min(field.range.min, value);
             field.range.max = std::max(field.range.max, value);
         }
         field.steps.emplace_back(std::move(values));
+    }
+    if (field.range.min > field.range.max) {
+        return fail(ErrorCode::kInvalidArgument, "field '" + field.name + "': has no value, all " +
+                                                     std::to_string(count * field.steps.size()) +
+                                                     " are NaN");
     }
     if (field.times.empty()) {
         for (std::size_t s = 0; s < field.steps.size(); ++s) {
@@ -194,13 +202,16 @@ Result<Mesh> buildMesh(MeshInput input) {
     mesh.cellsDoubled = ordered->cellsDoubled;
     mesh.facesNotManifold = adjacency.facesNotManifold;
     for (FieldInput& field : input.fields) {
-        mesh.fields.push_back(buildField(std::move(field), *ordered));
+        auto built = buildField(std::move(field), *ordered);
+        if (!built) return built.error();
+        mesh.fields.push_back(std::move(*built));
     }
     mesh.vertices = std::move(ordered->vertices);
     mesh.cells = std::move(ordered->cells);
     mesh.neighbours = std::move(adjacency.neighbours);
     mesh.boundaryFaces = std::move(adjacency.boundaryFaces);
     mesh.boundaryNeighbours = std::move(adjacency.boundaryNeighbours);
+    for (Field& field : mesh.fields) field.cellsWithoutValue = countCellsWithoutValue(mesh, field);
     return mesh;
 }
 

@@ -37,7 +37,8 @@ inline constexpr std::size_t kMaxSteps = std::size_t{1} << 20;  ///< Time steps 
 ///
 /// * The origin is the centre of the used points' bounds. Points no cell uses are dropped.
 /// * Points that coincide in float32 and agree in every vertex field become one vertex, so that
-///   meshes written piece by piece are joined; where a field jumps they stay apart.
+///   meshes written piece by piece are joined; where a field jumps they stay apart. NaN agrees
+///   with NaN.
 /// * Cells without volume (in the rounding of double) or with a vertex twice are left out, as are
 ///   all but one of cells with the same vertices; both are counted.
 /// * Negatively oriented cells are turned round and counted. A cell too thin for float32 keeps the
@@ -45,9 +46,11 @@ inline constexpr std::size_t kMaxSteps = std::size_t{1} << 20;  ///< Time steps 
 /// * Two cells are neighbours where exactly these two share a face, from opposite sides. A face
 ///   that more cells share, or two from one side, is a boundary face of each and counted.
 ///
-/// Errors: kInvalidArgument (a coordinate or value that is not finite or beyond float32, an index
-/// out of range, a wrong number of values, a doubled or empty field name, no cell with a volume),
-/// kLimitExceeded (counts).
+/// * NaN among field values is kept: Field::cellsWithoutValue counts the cells it concerns.
+///
+/// Errors: kInvalidArgument (a coordinate that is not finite or a value that is infinite, either
+/// beyond float32, a field of NaN alone, an index out of range, a wrong number of values, a doubled
+/// or empty field name, no cell with a volume), kLimitExceeded (counts).
 Result<Mesh> buildMesh(MeshInput input);
 
 }  // namespace volcast::data

@@ -127,7 +127,9 @@ int Ordering::compareValues(std::uint32_t a, std::uint32_t b) const {
         for (const auto& step : field.steps) {
             const auto x = static_cast<float>(step[a]);
             const auto y = static_cast<float>(step[b]);
-            if (x != y) return x < y ? -1 : 1;
+            if (x == y || (std::isnan(x) && std::isnan(y))) continue;
+            if (std::isnan(x) || std::isnan(y)) return std::isnan(y) ? -1 : 1;  // NaN comes last.
+            return x < y ? -1 : 1;
         }
     }
     return 0;

@@ -80,6 +80,14 @@ void leaveOutWithoutValue(std::vector<Fate>& fates, const Mesh& mesh, Associatio
 
 }  // namespace
 
+std::uint64_t countCellsWithoutValue(const Mesh& mesh, const Field& field) {
+    std::vector<Fate> fates(mesh.cells.size(), Fate::kKept);
+    for (const auto& step : field.steps) {
+        leaveOutWithoutValue(fates, mesh, field.association, step.span());
+    }
+    return static_cast<std::uint64_t>(std::ranges::count(fates, Fate::kWithoutValue));
+}
+
 Result<std::optional<KeptCells>> keptCells(const Mesh& mesh, const FieldStep& marker,
                                            std::span<const float> listed,
                                            std::span<const FieldStep> fields) {
@@ -153,7 +161,8 @@ Field restrictField(const Field& field, int step, std::span<const std::int32_t> 
                  .association = field.association,
                  .range = field.range,
                  .steps = {},
-                 .times = {field.times[s]}};
+                 .times = {field.times[s]},
+                 .cellsWithoutValue = field.cellsWithoutValue};
     if (field.association == Association::kVertex) {
         result.steps.push_back(field.steps[s]);
         return result;

@@ -16,6 +16,9 @@ struct FieldStep {
     int step = 0;
 };
 
+/// Cells of `mesh` with a NaN among the values they interpolate, in any step of `field`.
+std::uint64_t countCellsWithoutValue(const Mesh& mesh, const Field& field);
+
 /// The cells of a mesh that are drawn, and why the others are not.
 struct KeptCells {
     std::vector<std::int32_t> cells;  ///< Ascending; empty where none is left.
@@ -49,7 +52,7 @@ struct Restriction {
 Restriction restrictMesh(const Mesh& mesh, std::vector<std::int32_t> cells);
 
 /// Time step `step` of `field` (in range) for the cells of a restriction, as step 0 of a field.
-/// Vertex values are shared. The range stays that of the whole field.
+/// Vertex values are shared. Range and cellsWithoutValue stay those of the whole field.
 Field restrictField(const Field& field, int step, std::span<const std::int32_t> source);
 
 }  // namespace volcast::data

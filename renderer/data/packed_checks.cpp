@@ -7,6 +7,7 @@
 #include <set>
 
 #include "renderer/data/mesh_builder.h"
+#include "renderer/data/mesh_restrict.h"
 #include "renderer/data/text.h"
 #include "renderer/data/volume_builder.h"
 
@@ -143,12 +144,15 @@ Result<void> checkField(const Field& field, const Mesh& mesh) {
                            " values, expected " + std::to_string(expected));
         }
         for (std::size_t i = 0; i < expected; ++i) {
-            // Written so that NaN fails.
-            if (!(step[i] >= field.range.min && step[i] <= field.range.max)) {
+            // NaN is outside neither; infinity is, as the range is finite.
+            if (step[i] < field.range.min || step[i] > field.range.max) {
                 return damaged("field '" + field.name + "': value " + std::to_string(i) +
                                " lies outside the field's range");
             }
         }
+    }
+    if (field.cellsWithoutValue != countCellsWithoutValue(mesh, field)) {
+        return damaged("field '" + field.name + "': wrong number of cells without a value");
     }
     return {};
 }

@@ -6,9 +6,10 @@
 
 namespace volcast::data::packed {
 
-/// Checks all that drawing relies on: counts, ids, finite numbers, values within their range, and
-/// that neighbours name each other across a face they share. Orientation, the order of vertices
-/// and `convex` are not checked: they decide what is seen, never what is read.
+/// Checks all that drawing relies on: counts, ids, finite numbers (of fields: or NaN), values
+/// within their range, and that neighbours name each other across a face they share. Orientation,
+/// the order of vertices and `convex` are not checked: they decide what is seen, never what is
+/// read.
 ///
 /// Errors: kInvalidArgument naming the item.
 Result<void> check(const Mesh& mesh);

@@ -81,7 +81,8 @@ Result<base::FileDescriptor> packMesh(const Mesh& mesh) {
     for (const Field& field : mesh.fields) {
         headers.push_back({.range = field.range,
                            .association = static_cast<std::uint32_t>(field.association),
-                           .steps = field.steps.size()});
+                           .steps = field.steps.size(),
+                           .cellsWithoutValue = field.cellsWithoutValue});
         writer.addOne(packed::Tag::kField, headers.back());
         writer.addText(field.name);
         writer.addText(field.unit);
@@ -208,6 +209,7 @@ Result<Field> readField(Reader& reader) {
     }
     field.association = static_cast<Association>(header.association);
     field.range = header.range;
+    field.cellsWithoutValue = header.cellsWithoutValue;
     field.times.assign(times.begin(), times.end());
     for (std::uint64_t step = 0; step < header.steps; ++step) {
         auto values = reader.take<float>(packed::Tag::kValues);

@@ -65,6 +65,7 @@ struct FieldHeader {
     Range range;
     std::uint64_t association = 0;
     std::uint64_t steps = 0;
+    std::uint64_t cellsWithoutValue = 0;
 };
 
 struct VolumeHeader {

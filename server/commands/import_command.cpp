@@ -66,12 +66,14 @@ json::object asJson(const workers::ImportedDataset& imported) {
     result["bounds"] = {{"min", numbers(s.bounds.min)}, {"max", numbers(s.bounds.max)}};
     json::array fields;
     for (const data::FieldSummary& field : s.fields) {
-        fields.push_back({{"name", field.name},
-                          {"unit", field.unit},
-                          {"association", s.isMesh ? text(field.association) : "voxel"},
-                          {"min", field.range.min},
-                          {"max", field.range.max},
-                          {"steps", field.steps}});
+        json::object row{{"name", field.name},
+                         {"unit", field.unit},
+                         {"association", s.isMesh ? text(field.association) : "voxel"},
+                         {"min", field.range.min},
+                         {"max", field.range.max},
+                         {"steps", field.steps}};
+        if (s.isMesh) row["cells_without_value"] = field.cellsWithoutValue;
+        fields.push_back(std::move(row));
     }
     result["fields"] = std::move(fields);
     result["warnings"] = json::array(imported.warnings.begin(), imported.warnings.end());

@@ -111,10 +111,13 @@ Result<ImportedDataset> accept(LastWord word, const ImportRequest& request) {
         return fail(dataset.error().code, request.path + ": " + dataset.error().message);
     }
     const messages::Imported& imported = word.message.imported();
+    data::DatasetSummary summary = data::summarize(*dataset);
+    std::vector<std::string> warnings{imported.warnings().begin(), imported.warnings().end()};
+    for (std::string& warning : data::warningsOf(summary)) warnings.push_back(std::move(warning));
     return ImportedDataset{.packed = std::move(word.packed),
-                           .summary = data::summarize(*dataset),
+                           .summary = std::move(summary),
                            .format = imported.format(),
-                           .warnings = {imported.warnings().begin(), imported.warnings().end()},
+                           .warnings = std::move(warnings),
                            .ms = imported.ms(),
                            .peakMb = imported.peak_mb()};
 }

@@ -24,7 +24,7 @@ Result<void> readNode(TextLines& lines, std::size_t i, NodeList& list) {
         list.points[i][axis] = *value;
     }
     for (std::size_t a = 0; a < attributes; ++a) {
-        const auto value = lines.number(4 + a);
+        const auto value = lines.value(4 + a);
         if (!value) return value.error();
         list.attributes[a].steps[0][i] = *value;
     }

@@ -81,7 +81,7 @@ class Sender:
         """
         for part_name, part in scalars_of(name, values):
             text = "\x1f".join([part_name, unit, where, str(step), repr(float(time))])
-            require_finite(f'field "{part_name}"', part)
+            require_not_infinite(f'field "{part_name}"', part)
             self.record(FIELD, text, little(part, "<f8"))
 
     def grid(self, size, spacing, origin, direction, kind):
@@ -103,13 +103,25 @@ def little(values, dtype):
 
 def require_finite(what, values):
     import numpy
-    if values.dtype.kind != "f":
-        return
-    bad = numpy.flatnonzero(~numpy.isfinite(values.reshape(-1)))
-    if len(bad):
-        item = bad[0] // (values.shape[1] if values.ndim > 1 else 1)
-        value = values.reshape(-1)[bad[0]]
-        raise Refusal(f"{what}: value {value} at index {item} is not finite")
+    if values.dtype.kind == "f":
+        refuse_bad(what, values, ~numpy.isfinite(values), "not finite")
+
+
+def require_not_infinite(what, values):
+    """For fields of meshes, where NaN stands for no value."""
+    import numpy
+    if values.dtype.kind == "f":
+        refuse_bad(what, values, numpy.isinf(values), "infinite")
+
+
+def refuse_bad(what, values, bad, adjective):
+    """Refuses the first of `values` where `bad` is true."""
+    import numpy
+    places = numpy.flatnonzero(bad.reshape(-1))
+    if len(places):
+        item = places[0] // (values.shape[1] if values.ndim > 1 else 1)
+        value = values.reshape(-1)[places[0]]
+        raise Refusal(f"{what}: value {value} at index {item} is {adjective}")
 
 
 def scalars_of(name, values):

@@ -63,7 +63,7 @@ Result<void> readCell(TextLines& lines, std::size_t i, const NodeList& nodes, st
         if (!done) return done;
     }
     for (std::size_t a = 0; a < mesh.fields.size(); ++a) {
-        const auto value = lines.number(1 + corners + a);
+        const auto value = lines.value(1 + corners + a);
         if (!value) return value.error();
         mesh.fields[a].steps[0].push_back(*value);
     }

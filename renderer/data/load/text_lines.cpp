@@ -68,10 +68,16 @@ Result<void> TextLines::need(std::size_t words, const std::string& what) {
 }
 
 Result<double> TextLines::number(std::size_t i) const {
+    const auto number = value(i);
+    if (number && std::isnan(*number)) return error(shown(words_[i]) + " is not finite");
+    return number;
+}
+
+Result<double> TextLines::value(std::size_t i) const {
     double value = 0.0;
     if (i >= words_.size()) return error("word " + std::to_string(i + 1) + " is missing");
     if (!parse(words_[i], value)) return error(shown(words_[i]) + " is no number");
-    if (!std::isfinite(value)) return error(shown(words_[i]) + " is not finite");
+    if (std::isinf(value)) return error(shown(words_[i]) + " is not finite");
     return value;
 }
 

@@ -32,6 +32,8 @@ public:
 
     /// Word `i` as a finite number. Errors: kInvalidArgument naming path and line.
     Result<double> number(std::size_t i) const;
+    /// The same for the value of a field, which may be NaN.
+    Result<double> value(std::size_t i) const;
     Result<std::int64_t> integer(std::size_t i) const;
     /// A count of items that take at least `bytesEach` bytes of text each.
     ///

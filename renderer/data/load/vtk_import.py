@@ -152,7 +152,7 @@ def send_unstructured(send, grid):
         send.field(name, "point", values)
     point_names = {name for name, _ in arrays_of(grid.GetPointData())}
     for name, values in arrays_of(grid.GetCellData()):
-        require_finite(f'cell field "{name}"', values)
+        require_not_infinite(f'cell field "{name}"', values)
         send.field(name + " (cells)" if name in point_names else name, "cell", values[order])
 
 

@@ -36,7 +36,8 @@ void PrintTo(const Family& family, std::ostream* out) {
     *out << family.maker;
 }
 
-// Each row: empty, cut off, NaN, absurd size, another kind of file, a value of a wrong type.
+// Each row: empty, cut off, NaN (a mesh keeps NaN among its fields' values: infinity there), absurd
+// size, another kind of file, a value of a wrong type.
 const Family kFamilies[] = {
     {"node",
      ".node",
@@ -52,7 +53,7 @@ const Family kFamilies[] = {
      ".ele",
      {kInvalid, "is empty"},
      {kInvalid, "line 2: has 3 words, expected 6 (cell 0)"},
-     {kInvalid, "line 2: \"nan\" is not finite"},
+     {kInvalid, "line 2: \"inf\" is not finite"},
      {kLimit, "says 1000000000000 cells, which a file of"},
      {kInvalid, "line 1"},
      {kInvalid, "line 2: \"1.5\" is no whole number"}},
@@ -124,7 +125,7 @@ const Family kFamilies[] = {
      ".vtu",
      {kInvalid, "is empty"},
      {kInvalid, "Error parsing XML"},
-     {kInvalid, "field \"heat\": value nan at index 1 is not finite"},
+     {kInvalid, "field \"heat\": value inf at index 1 is infinite"},
      {kLimit, "NumberOfPoints says 1000000000000, which"},
      {kInvalid, "no <VTKFile> in it"},
      {kInvalid, "Unknown data type \"Complex64\""}},
@@ -151,7 +152,7 @@ const Family kFamilies[] = {
      ".ex2",
      {kInvalid, "is empty"},
      {kInvalid, "is cut off: "},
-     {kInvalid, "field \"heat\": value nan at index 2 is not finite"},
+     {kInvalid, "field \"heat\": value inf at index 2 is infinite"},
      {kLimit, "num_nodes says 2147483647, which"},
      {kInvalid, "neither netCDF nor HDF5"},
      {kInvalid, "Unsupported element type: BLOBS"}},
@@ -187,7 +188,7 @@ const Family kFamilies[] = {
      ".xdmf",
      {kInvalid, "is empty"},
      {kInvalid, "is no well-formed XML"},
-     {kInvalid, "field \"heat\": value nan at index 2 is not finite"},
+     {kInvalid, "field \"heat\": value inf at index 2 is infinite"},
      {kInvalid, "the geometry says 1000000000000 x 3 values, there are 12"},
      {kInvalid, "is no well-formed XML"},
      {kInvalid, "attribute \"heat\" holds something that is no number"}},
@@ -196,7 +197,7 @@ const Family kFamilies[] = {
      ".xdmf",
      {ErrorCode::kIo, "its data file empty.h5: Unable to open file (file signature"},
      {ErrorCode::kIo, "its data file cut.h5: Unable to open file (truncated file"},
-     {kInvalid, "field \"heat\": value nan at index 2 is not finite"},
+     {kInvalid, "field \"heat\": value inf at index 2 is infinite"},
      {kLimit, "/points of absurd.h5 says 3000000000000 values, which"},
      {ErrorCode::kIo, "its data file kind.h5: Unable to open file (file signature"},
      {kInvalid, "/heat of typed.h5 holds no numbers"}},
@@ -205,7 +206,7 @@ const Family kFamilies[] = {
      ".msh",
      {kInvalid, "is empty"},
      {kInvalid, "is cut off: $Nodes has no $EndNodes"},
-     {kInvalid, "field \"heat\": value nan at index 2 is not finite"},
+     {kInvalid, "field \"heat\": value inf at index 2 is infinite"},
      {kLimit, "$Nodes says 1000000000000 items, which"},
      {kInvalid, "does not start with $MeshFormat"},
      {kInvalid, "element type 999 is not known"}},

@@ -88,7 +88,7 @@ def make_node():
 def make_ele():
     for name in ("good", "empty", "kind", "cut", "nan", "absurd", "typed"):
         put(name + ".node", node_text())
-    put_all(".ele", ELE, cut=ELE[:-9], nan=ELE.replace("7.5", "nan"),
+    put_all(".ele", ELE, cut=ELE[:-9], nan=ELE.replace("7.5", "inf"),
             absurd=ELE.replace("1 4 1", f"{HUGE} 4 1"), typed=ELE.replace("0 0 1 3", "0 0 1.5 3"))
 
 
@@ -183,7 +183,7 @@ def vtu_text(values=(1, 2, 3, 4), points=4, kind="Float32"):
 
 def make_vtu():
     good = vtu_text()
-    put_all(".vtu", good, cut=good[:len(good) // 2], nan=vtu_text((1, float("nan"), 3, 4)),
+    put_all(".vtu", good, cut=good[:len(good) // 2], nan=vtu_text((1, float("inf"), 3, 4)),
             absurd=vtu_text(points=HUGE), typed=vtu_text(kind="Complex64"))
 
 
@@ -233,7 +233,7 @@ def exodus(name, values):
 
 def make_exodus():
     exodus("good.ex2", [1.0, 2.0, 3.0, 4.0])
-    exodus("nan.ex2", [1.0, 2.0, float("nan"), 4.0])
+    exodus("nan.ex2", [1.0, 2.0, float("inf"), 4.0])
     good = open("good.ex2", "rb").read()
     nodes = good.index(b"num_nodes") + 12  # The name is padded to a multiple of 4 bytes.
     kind = good.index(b"connect1")
@@ -293,7 +293,7 @@ def make_xdmf():
     def text(values="1 2 3 4", points="4 3"):
         return xdmf_text('Format="XML">0 0 0 1 0 0 0 1 0 0 0 1', f'Format="XML">{values}', points)
     good = text()
-    put_all(".xdmf", good, cut=good[:len(good) // 2], nan=text("1 2 nan 4"),
+    put_all(".xdmf", good, cut=good[:len(good) // 2], nan=text("1 2 inf 4"),
             absurd=text(points=f"{HUGE} 3"), typed=text("1 2 three 4"))
 
 
@@ -301,7 +301,7 @@ def make_xdmf_hdf5():
     import h5py
     import numpy
     points = numpy.array([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)], "f8")
-    heat = {"good": numpy.array([1.0, 2, 3, 4]), "nan": numpy.array([1, 2, float("nan"), 4]),
+    heat = {"good": numpy.array([1.0, 2, 3, 4]), "nan": numpy.array([1, 2, float("inf"), 4]),
             "typed": numpy.array([b"a", b"b", b"c", b"d"])}
     for name in ("good", "empty", "cut", "nan", "absurd", "kind", "typed"):
         with h5py.File(name + ".h5", "w") as file:
@@ -352,7 +352,7 @@ $EndNodeData
 
 def make_gmsh():
     good = gmsh_text()
-    put_all(".msh", good, cut=good[:good.index("$Elements") - 20], nan=gmsh_text(value="nan"),
+    put_all(".msh", good, cut=good[:good.index("$Elements") - 20], nan=gmsh_text(value="inf"),
             absurd=gmsh_text(nodes=HUGE), typed=gmsh_text(kind=999))
     put("nan_point.msh", gmsh_text(third="0 nan 0"))
     put("cut_data.msh", good[:good.index("3 3\n")])

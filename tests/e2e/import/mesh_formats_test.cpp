@@ -50,6 +50,52 @@ TEST_F(MeshFormats, QuadraticTetgenCellsKeepTheirMiddles) {
     EXPECT_LT(vertexError(cell, cell.fields.at(0), [](auto p) { return glm::dot(p, p); }), 1e-6);
 }
 
+// Two cells that share a face: NaN at the lower apex concerns one of them.
+TEST_F(MeshFormats, CellsWithoutAValueAreKeptAndSaid) {
+    ASSERT_EQ(folder.python(R"(
+import vtk
+from vtk.util.numpy_support import numpy_to_vtk
+import numpy
+grid = vtk.vtkUnstructuredGrid()
+points = vtk.vtkPoints()
+for p in [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1), (0, 0, -1)]:
+    points.InsertNextPoint(p)
+grid.SetPoints(points)
+for cell in [(0, 1, 2, 3), (0, 2, 1, 4)]:
+    grid.InsertNextCell(vtk.VTK_TETRA, 4, cell)
+def put(data, name, values):
+    array = numpy_to_vtk(numpy.array(values, 'f8'), deep=True)
+    array.SetName(name)
+    data.AddArray(array)
+nan = float('nan')
+put(grid.GetPointData(), 'Temp', [1, 2, 3, 4, nan])
+put(grid.GetCellData(), 'Rho', [nan, 7])
+put(grid.GetCellData(), 'Id', [1, 2])
+writer = vtk.vtkXMLUnstructuredGridWriter()
+writer.SetFileName('gaps.vtu')
+writer.SetInputData(grid)
+writer.Write()
+array = grid.GetCellData().GetArray('Rho')
+array.SetValue(1, nan)
+writer.SetFileName('none.vtu')
+writer.Write()
+)"),
+              "");
+    const data::Mesh gaps = mesh(folder.path("gaps.vtu"));
+    EXPECT_EQ(gaps.cells.size(), 2U);
+    ASSERT_EQ(summary.fields.size(), 3U);
+    EXPECT_EQ(field(gaps, "Temp")->range, (data::Range{1.0F, 4.0F}));
+    EXPECT_EQ(field(gaps, "Rho")->range, (data::Range{7.0F, 7.0F}));
+    for (const data::FieldSummary& one : summary.fields) {
+        EXPECT_EQ(one.cellsWithoutValue, one.name == "Id" ? 0U : 1U) << one.name;
+    }
+    ASSERT_EQ(warnings.size(), 2U);
+    EXPECT_EQ(warnings[0],
+              "1 cell has no value (NaN) in \"Temp\" and is left out where it is drawn");
+    expectRefused(folder.path("none.vtu"), ErrorCode::kInvalidArgument,
+                  "field 'Rho': has no value, all 2 are NaN");
+}
+
 TEST_F(MeshFormats, SurfacesAreFilledWithTheSwitchesOfTheUser) {
     for (const auto& [name, text] :
          {std::pair{"cube.off", cubeOff()}, std::pair{"cube.stl", cubeStlText()}}) {

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "renderer/data/dataset.h"
 #include "renderer/data/mesh_adjacency.h"
 #include "renderer/data/packed_checks.h"
 #include "tests/support/mesh_phantoms.h"
@@ -267,6 +268,59 @@ TEST(MeshBuilder, BallIsConvexThoughItsBoundaryIsCurved) {
     EXPECT_LT(volumeOf(mesh), 4.0 / 3.0 * std::numbers::pi);
 }
 
+TEST(MeshBuilder, NanIsKeptCountedAndOutsideTheRange) {
+    MeshInput input = latticeMesh({.cubes = {2, 2, 2}});
+    const auto f = [](const glm::dvec3& p) { return p.x; };
+    for (const auto association :
+         {Association::kVertex, Association::kCell, Association::kCellVertex}) {
+        addField(input, "f" + std::to_string(input.fields.size()), association, f);
+        input.fields.back().steps[0][5] = std::numeric_limits<double>::quiet_NaN();
+    }
+    // Point 5 of 27 is the middle of an edge of the lattice.
+    const auto atPoint = static_cast<std::uint64_t>(std::ranges::count_if(
+        input.cells, [](const auto& c) { return std::ranges::count(c, 5) > 0; }));
+    const Mesh mesh = built(input);
+    EXPECT_GT(atPoint, 1U);
+    EXPECT_EQ(mesh.fields[0].cellsWithoutValue, atPoint);
+    EXPECT_EQ(mesh.fields[1].cellsWithoutValue, 1U);
+    EXPECT_EQ(mesh.fields[2].cellsWithoutValue, 1U);
+    EXPECT_EQ(mesh.fields[0].range, (Range{0.0F, 1.0F}));
+    const DatasetSummary summary = summarize(Dataset{mesh});
+    std::uint64_t counted = 0;
+    for (const auto count : summary.fields[0].histogram) counted += count;
+    EXPECT_EQ(counted, 26U) << "all but the one";
+    const std::vector<std::string> warnings = warningsOf(summary);
+    ASSERT_EQ(warnings.size(), 3U);
+    EXPECT_EQ(warnings[1], "1 cell has no value (NaN) in \"f1\" and is left out where it is drawn");
+    EXPECT_EQ(warnings[0], std::to_string(atPoint) +
+                               " cells have no value (NaN) in \"f0\" and are left out where it is "
+                               "drawn");
+}
+
+TEST(MeshBuilder, PointsWithoutAValueAreJoined) {
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    for (const double other : {nan, 3.0}) {
+        MeshInput input{.points = {{0, 0, 0},
+                                   {1, 0, 0},
+                                   {0, 1, 0},
+                                   {0, 0, 1},
+                                   {0, 0, 0},
+                                   {1, 0, 0},
+                                   {0, 1, 0},
+                                   {0, 0, -1}},
+                        .cells = {{0, 1, 2, 3}, {4, 5, 6, 7}},
+                        .fields = {}};
+        input.fields.push_back({.name = "f",
+                                .unit = "",
+                                .association = Association::kVertex,
+                                .steps = {{1, 2, nan, 4, 1, 2, other, 6}},
+                                .times = {}});
+        const Mesh mesh = built(input);
+        EXPECT_EQ(mesh.vertices.size(), std::isnan(other) ? 5U : 6U);
+        EXPECT_EQ(mesh.fields[0].cellsWithoutValue, std::isnan(other) ? 2U : 1U);
+    }
+}
+
 TEST(MeshBuilder, BadCoordinatesAndIdsAreRefusedByName) {
     MeshInput input = singleTet();
     input.points[2].y = std::numeric_limits<double>::quiet_NaN();
@@ -302,11 +356,14 @@ TEST(MeshBuilder, BadFieldsAreRefusedByFieldItemAndValue) {
                           .times = {}};
     EXPECT_TRUE(with(good));
     FieldInput bad = good;
-    bad.steps = {{1, 2, nan, 4}};
+    bad.steps = {{1, 2, HUGE_VAL, 4}};
     const std::string message = with(bad).error().message;
     EXPECT_NE(message.find("'T'"), std::string::npos) << message;
     EXPECT_NE(message.find("point 2"), std::string::npos) << message;
-    EXPECT_NE(message.find("nan"), std::string::npos) << message;
+    EXPECT_NE(message.find("inf"), std::string::npos) << message;
+    bad.steps = {{nan, nan, nan, nan}};
+    EXPECT_NE(with(bad).error().message.find("'T': has no value, all 4 are NaN"), std::string::npos)
+        << with(bad).error().message;
     for (const auto& steps : std::vector<std::vector<std::vector<double>>>{
              {}, {{1, 2, 3}}, {{1, 2, 3, 4}, {1, 2, 3}}, {{1, 2, 3, 1e39}}}) {
         bad.steps = steps;

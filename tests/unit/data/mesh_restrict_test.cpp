@@ -142,6 +142,15 @@ TEST(MeshRestrict, FieldValuesFollowTheirCells) {
     }
 }
 
+TEST(MeshRestrict, CellsWithoutAValueAreCountedOverAllSteps) {
+    const Mesh mesh = cube();
+    Field changed = withNan(mesh.fields[2], 3);
+    changed.steps.push_back(withNan(mesh.fields[2], 9).steps[0]);
+    changed.steps.push_back(changed.steps[0]);
+    EXPECT_EQ(countCellsWithoutValue(mesh, changed), 2U);
+    EXPECT_EQ(countCellsWithoutValue(mesh, mesh.fields[2]), 0U);
+}
+
 TEST(MeshRestrict, AllLeftOutIsAMeshWithoutCells) {
     const Mesh mesh = cube();
     const std::array listed{5.0F};

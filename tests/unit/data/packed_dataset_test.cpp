@@ -169,6 +169,20 @@ TEST(PackedDataset, DamagedHeadersAndTablesAreRefused) {
     }
 }
 
+TEST(PackedDataset, CellsWithoutAValueSurviveAndMustBeCountedRight) {
+    MeshInput input = support::latticeMesh({.cubes = {2, 1, 1}});
+    support::addField(input, "p0", Association::kCell, [](const auto& p) { return p.x; });
+    input.fields[0].steps[0][3] = std::nan("");
+    const auto fd = pack(Dataset{buildMesh(input).value()}).value();
+    const auto read = unpack(fd);
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(std::get<Mesh>(*read).fields[0].cellsWithoutValue, 1U);
+    constexpr std::size_t kCount = offsetof(packed::FieldHeader, cellsWithoutValue) / 8;
+    EXPECT_FALSE(unpack(poked(fd, 6, kCount, std::uint64_t{2})));
+    EXPECT_FALSE(unpack(poked(fd, 6, kCount, std::uint64_t{0})));
+    EXPECT_FALSE(unpack(poked(fd, 10, 0, std::numeric_limits<float>::infinity())));
+}
+
 TEST(PackedDataset, DamagedMeshesAreRefused) {
     const auto fd = pack(someMesh()).value();
     const float nan = std::nanf("");
