@@ -1,10 +1,18 @@
 #include "renderer/scene/map_table.h"
 
+#include <algorithm>
 #include <span>
 
 #include "renderer/shading/shared.h"
 
 namespace volcast::scene {
+
+namespace {
+
+constexpr std::size_t kBlockBytes =
+    (kMapHeaderTexels + shading::shared::kMapBlockTexels) * sizeof(glm::vec4);
+
+}  // namespace
 
 Result<void> MapTable::set(gpu::Device& device, const MapContent& content) {
     if (buffer_.valid() && content == content_) return {};
@@ -14,29 +22,37 @@ Result<void> MapTable::set(gpu::Device& device, const MapContent& content) {
         buffer_.update(0, bytes);
     } else {
         // Room for a few more points, so that adding one while editing stays an update.
-        Result<gpu::Buffer> buffer = gpu::Buffer::create(device,
-                                                         {.bytes = bytes.size() * 2,
-                                                          .updatable = true,
-                                                          .texels = gpu::TexelFormat::kRgba32F,
-                                                          .label = "transfer function"},
-                                                         bytes);
+        Result<gpu::Buffer> buffer =
+            gpu::Buffer::create(device,
+                                {.bytes = std::max(bytes.size() * 2, kBlockBytes),
+                                 .updatable = true,
+                                 .texels = gpu::TexelFormat::kRgba32F,
+                                 .label = "transfer function"},
+                                bytes);
         if (!buffer) return buffer.error();
         buffer_ = std::move(*buffer);
     }
     content_ = content;
+    inBlock_ =
+        table.pieces <= shading::shared::kMapBlockTexels + static_cast<int>(kMapHeaderTexels);
     search_ = table.search;
     densitySearch_ = table.densitySearch;
+    slopes_ = table.slopes;
+    densitySlopes_ = table.densitySlopes;
     return {};
 }
 
 void MapTable::bind() const noexcept {
-    buffer_.bindUniform(shading::shared::kMapBinding, 0, kMapHeaderTexels * sizeof(glm::vec4));
+    buffer_.bindUniform(shading::shared::kMapBinding, 0, kBlockBytes);
     buffer_.bindTexels(shading::shared::kMapUnit);
 }
 
 std::vector<shading::Constant> MapTable::constants() const {
     return {{.name = "kMapSearch", .value = static_cast<int>(search_)},
             {.name = "kDensitySearch", .value = static_cast<int>(densitySearch_)},
+            {.name = "kMapSlopes", .value = slopes_},
+            {.name = "kDensitySlopes", .value = densitySlopes_},
+            {.name = "kMapInBlock", .value = inBlock_},
             {.name = "kTwoMaps", .value = !content_.densityMap.points.empty()},
             {.name = "kPreintegratedSide", .value = kPreintegratedSide}};
 }

@@ -24,6 +24,8 @@ private:
     MapContent content_;
     MapSearch search_ = MapSearch::kCompareAll;
     MapSearch densitySearch_ = MapSearch::kCompareAll;
+    int slopes_ = 0, densitySlopes_ = 0;
+    bool inBlock_ = true;  ///< All pieces are in the uniform block.
     gpu::Buffer buffer_;
 };
 

@@ -10,7 +10,9 @@ namespace {
 using data::ControlPoint;
 
 constexpr std::size_t kTexelsAPiece = 3;
-constexpr std::size_t kHeaderOfMap = 3;  // Texels.
+constexpr std::size_t kHeaderOfMap = 13;                    // Texels.
+constexpr std::size_t kScales = 3, kBelow = 5, kRises = 6;  // Places in it.
+constexpr std::size_t kMostSlopes = 7;
 constexpr std::size_t kComparedPoints = 8;
 constexpr std::size_t kCellsAPoint = 4;
 constexpr int kMostPiecesACell = 4;  // What two halvings can tell apart.
@@ -82,25 +84,78 @@ bool narrowEnough(const Grid& grid) {
     });
 }
 
+/// How a map is found, and of how many slopes it is the sum.
+struct Found {
+    MapSearch search = MapSearch::kCompareAll;
+    int slopes = 0;
+};
+
+/// The sum that the shader makes, in its own order and precision.
+glm::vec4 sumOfSlopes(const std::vector<glm::vec4>& texels, std::size_t header, float value) {
+    glm::vec4 matter = texels[header + kBelow];
+    for (std::size_t i = 0; i < kMostSlopes; ++i) {
+        const int part = static_cast<int>(i % 4);
+        const float share =
+            (value - texels[header + 1 + i / 4][part]) * texels[header + kScales + i / 4][part];
+        matter += std::clamp(share, 0.0F, 1.0F) * texels[header + kRises + i];
+    }
+    return matter;
+}
+
+/// Whether the sum is as good as looking a piece up: at points, where its terms cancel worst, it
+/// gives what the map says to a millionth, and 0 where that is 0.
+bool sumIsExact(const std::vector<ControlPoint>& points, const std::vector<glm::vec4>& texels,
+                std::size_t header) {
+    constexpr float kTolerance = 1e-6F;
+    return std::ranges::all_of(points, [&](const ControlPoint& point) {
+        const glm::vec4 wanted = matter(point);
+        const glm::vec4 made = sumOfSlopes(texels, header, point.value);
+        for (int i = 0; i < 4; ++i) {
+            if (!(std::abs(made[i] - wanted[i]) <= kTolerance * std::abs(wanted[i]))) return false;
+        }
+        return true;
+    });
+}
+
+/// Fills the sum's part of the header. A step has no slope: maps with one are looked up.
+Found fillSlopes(const std::vector<ControlPoint>& points, std::size_t header,
+                 std::vector<glm::vec4>& texels) {
+    for (std::size_t i = kScales; i < kHeaderOfMap; ++i) texels[header + i] = glm::vec4(0.0F);
+    texels[header + kBelow] = matter(points.front());
+    if (points.size() > kMostSlopes + 1) return {};
+    for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+        const double width =
+            static_cast<double>(points[i + 1].value) - static_cast<double>(points[i].value);
+        const auto scale = static_cast<float>(1.0 / width);
+        if (!std::isfinite(scale)) return {};
+        texels[header + kScales + i / 4][static_cast<int>(i % 4)] = scale;
+        texels[header + kRises + i] = matter(points[i + 1]) - matter(points[i]);
+    }
+    if (!sumIsExact(points, texels, header)) return {};
+    constexpr std::size_t kFew = 4;
+    return {.search = MapSearch::kSlopes,
+            .slopes = static_cast<int>(points.size() <= kFew + 1 ? kFew : kMostSlopes)};
+}
+
 /// Header, pieces and grid of one map.
-MapSearch appendMap(const data::TransferFunction& map, std::size_t header,
-                    std::vector<glm::vec4>& texels) {
+Found appendMap(const data::TransferFunction& map, std::size_t header,
+                std::vector<glm::vec4>& texels) {
     const std::vector<ControlPoint>& points = map.points;
     for (std::size_t i = 0; i < std::min(points.size(), kComparedPoints); ++i) {
         texels[header + 1 + i / 4][static_cast<int>(i % 4)] = points[i].value;
     }
     appendPieces(points, texels);
-    MapSearch search = MapSearch::kCompareAll;
+    Found found = fillSlopes(points, header, texels);
     Grid grid;
     if (points.size() > kComparedPoints) {
         grid = gridOf(points);
-        search = narrowEnough(grid) ? MapSearch::kGrid : MapSearch::kHalve;
+        found.search = narrowEnough(grid) ? MapSearch::kGrid : MapSearch::kHalve;
     }
     texels[header] = {static_cast<float>(points.size()), static_cast<float>(grid.pieces.size()),
                       grid.begin, grid.cellsAUnit};
-    if (search != MapSearch::kGrid) return search;
+    if (found.search != MapSearch::kGrid) return found;
     for (const glm::ivec2& cell : grid.pieces) texels.emplace_back(cell.x, cell.y, 0, 0);
-    return search;
+    return found;
 }
 
 void append(std::vector<glm::vec4>& texels, const std::vector<glm::vec4>& section) {
@@ -126,13 +181,18 @@ std::vector<glm::vec4> largestColours(const data::TransferFunction& map) {
 MapTexels mapTexels(const MapContent& content) {
     MapTexels table;
     table.texels.resize(kMapHeaderTexels, glm::vec4(kHuge));
-    table.search = appendMap(content.map, 0, table.texels);
+    const Found found = appendMap(content.map, 0, table.texels);
+    table.search = found.search;
+    table.slopes = found.slopes;
     glm::vec4 sections{0.0F};
     const auto here = [&table] { return static_cast<float>(table.texels.size()); };
     if (!content.densityMap.points.empty()) {
         sections.x = here();
-        table.densitySearch = appendMap(content.densityMap, kHeaderOfMap, table.texels);
+        const Found second = appendMap(content.densityMap, kHeaderOfMap, table.texels);
+        table.densitySearch = second.search;
+        table.densitySlopes = second.slopes;
     }
+    table.pieces = static_cast<int>(table.texels.size());
     sections.y = here();
     for (const LevelColour& level : content.levels) {
         table.texels.emplace_back(level.value, level.colour.r, level.colour.g, level.colour.b);
@@ -145,9 +205,10 @@ MapTexels mapTexels(const MapContent& content) {
         sections.w = here();
         append(table.texels, preintegrated(content.map));
     }
-    table.texels[6] = sections;
-    table.texels[7] = {static_cast<float>(content.levels.size()), content.map.points.front().value,
-                       content.map.points.back().value, 0.0F};
+    table.texels[kMapHeaderTexels - 2] = sections;
+    table.texels[kMapHeaderTexels - 1] = {static_cast<float>(content.levels.size()),
+                                          content.map.points.front().value,
+                                          content.map.points.back().value, 0.0F};
     return table;
 }
 

@@ -10,9 +10,8 @@
 
 namespace volcast::scene {
 
-/// How classify/transfer_function.glsl finds a value's piece; the constants kMapSearch and
-/// kDensitySearch.
-enum class MapSearch { kCompareAll = 0, kGrid = 1, kHalve = 2 };
+/// How classify/transfer_function.glsl finds a value; the constants kMapSearch and kDensitySearch.
+enum class MapSearch { kCompareAll = 0, kGrid = 1, kHalve = 2, kSlopes = 3 };
 
 /// One level of an isosurface and its colour, linear RGB.
 struct LevelColour {
@@ -26,8 +25,8 @@ struct MapContent {
     data::TransferFunction map;
     data::TransferFunction densityMap = {};  ///< No points: none.
     std::vector<LevelColour> levels = {};    ///< Ascending.
-    bool largestColours = false;        ///< The section that mip_colour asks.
-    bool preintegrated = false;         ///< The section of the integrator of that name.
+    bool largestColours = false;             ///< The section that mip_colour asks.
+    bool preintegrated = false;              ///< The section of the integrator of that name.
     friend bool operator==(const MapContent&, const MapContent&) = default;
 };
 
@@ -35,13 +34,15 @@ struct MapContent {
 inline constexpr int kPreintegratedSide = 256;
 
 /// Texels before the first piece; they are a uniform block too.
-inline constexpr std::size_t kMapHeaderTexels = 8;
+inline constexpr std::size_t kMapHeaderTexels = 28;
 
 /// Maps as texels; the layout is described in classify/transfer_function.glsl.
 struct MapTexels {
     std::vector<glm::vec4> texels;
     MapSearch search = MapSearch::kCompareAll;
     MapSearch densitySearch = MapSearch::kCompareAll;
+    int slopes = 0, densitySlopes = 0;  ///< kSlopes: how many are added up, 4 or 7.
+    int pieces = 0;                     ///< Texels up to the end of the last piece of both maps.
 };
 
 /// `content.map` must be valid.

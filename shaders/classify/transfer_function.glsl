@@ -4,17 +4,24 @@
 // n points make n + 1 pieces; piece k begins at the k-th point and piece 0 lies below them all. So
 // the piece of a value is the number of points that are not above it, and of points with one
 // value the last counts: they make a step.
-// Constants: kMapSearch, how that number is found.
+// A map of few points without steps is a sum instead, of one slope a piece, clamped to 0..1: no
+// piece is looked up, which on llvmpipe costs more than all of the sum.
+// Constants: kMapSearch, how a value is found:
 //   0  up to 8 points: compare with all
 //   1  many points: a uniform grid narrows it to 4 pieces, then 2 halvings
 //   2  points too uneven for a grid: 11 halvings
-// kTwoMaps: extinction has a map of its own, searched by kDensitySearch, or a field of its own.
-// Layout of the buffer (texels of 4 floats), written by renderer/scene/map_table.cpp:
-//   0     x: number of points, y: grid cells, z: where the grid begins, w: cells a unit of value
-//   1, 2  the first 8 points' values, huge where there are fewer
-//   3..5  the same of the map of g
-//   6     where sections begin: x: pieces of g, y: levels, z: largest colours, w: pre-integrated
-//   7     x: number of levels; y, z: values at the ends of the pre-integrated table
+//   3  a sum of kMapSlopes slopes, 4 or 7
+// kMapInBlock: all pieces fit the uniform block. kTwoMaps: extinction has a map of its own, found by
+// kDensitySearch and kDensitySlopes, or a field of its own.
+// Layout of the buffer (texels of 4 floats), written by renderer/scene/map_texels.cpp:
+//   0        x: number of points, y: grid cells, z: where the grid begins, w: cells a unit of value
+//   1, 2     the first 8 points' values, huge where there are fewer
+//   3, 4     1 / length of the first 7 pieces between points
+//   5        colour and extinction below the first point
+//   6..12    their rise over each of these pieces
+//   13..25   the same of the map of g
+//   26       where sections begin: x: pieces of g, y: levels, z: largest colours, w: pre-integrated
+//   27       x: number of levels; y, z: values at the ends of the pre-integrated table
 //   then the pieces of f, each 3 texels, and its grid; then the sections
 //   piece: 0  colour and extinction where it begins
 //          1  their slopes
@@ -22,19 +29,47 @@
 //   grid:  a texel a cell: x, y: the lowest and the highest piece in it
 #include "shared/bindings.glsl"
 
-const int kMapPieces = 8;  // texel of the first piece of f
+const int kMapPieces = 28;  // texel of the first piece of f
+
+struct MapHead {
+    vec4 grid;
+    vec4 values[2];
+    vec4 scales[2];
+    vec4 below;
+    vec4 rises[7];
+};
 
 layout(std140, binding = kMapBinding) uniform MapHeader {
-    vec4 mapGrid;
-    vec4 mapFirst;
-    vec4 mapSecond;
-    vec4 densityGrid;
-    vec4 densityFirst;
-    vec4 densitySecond;
+    MapHead uniformMapHead;
+    MapHead uniformDensityHead;
     vec4 mapSections;
     vec4 mapExtras;
+    vec4 mapBlock[kMapBlockTexels];  // the texels that follow
 };
 layout(binding = kMapUnit) uniform samplerBuffer mapTexels;
+
+// llvmpipe reads a uniform again in every round of a loop, and checks its bounds each time: that
+// was half of the time of a volume. What is computed before the loop stays out of it, so the heads
+// are: plus something that is 0, which no compiler knows.
+MapHead computed(MapHead head) {
+    float zero = max(-gl_FragCoord.x, 0.0);
+    head.grid += zero;
+    for (int i = 0; i < 2; ++i) {
+        head.values[i] += zero;
+        head.scales[i] += zero;
+    }
+    head.below += zero;
+    for (int i = 0; i < 7; ++i) head.rises[i] += zero;
+    return head;
+}
+
+MapHead mapHead = computed(uniformMapHead);
+MapHead densityHead = computed(uniformDensityHead);
+
+// Small maps are read from the uniform block: on llvmpipe that costs a third of a texel.
+vec4 mapTexel(int texel) {
+    return kMapInBlock ? mapBlock[texel - kMapPieces] : texelFetch(mapTexels, texel);
+}
 
 // Halves [range.x, range.y], which holds the piece of `value`. No loop, because llvmpipe ends all
 // loops of an invocation after 65,535 iterations in total.
@@ -45,16 +80,17 @@ ivec2 halved(int pieces, float value, ivec2 range) {
                : ivec2(range.x, max(middle - 1, range.x));
 }
 
-int pieceOf(float value, int search, int pieces, vec4 grid, vec4 first, vec4 second) {
+int pieceOf(float value, int search, int pieces, MapHead head) {
+    if (search == 3) return 0;
     if (search == 0) {
-        ivec4 counts = ivec4(greaterThanEqual(vec4(value), first)) +
-                       ivec4(greaterThanEqual(vec4(value), second));
+        ivec4 counts = ivec4(greaterThanEqual(vec4(value), head.values[0])) +
+                       ivec4(greaterThanEqual(vec4(value), head.values[1]));
         return counts.x + counts.y + counts.z + counts.w;
     }
-    ivec2 range = ivec2(0, int(grid.x));
+    ivec2 range = ivec2(0, int(head.grid.x));
     if (search == 1) {
-        float cell = clamp((value - grid.z) * grid.w, 0.0, grid.y - 1.0);
-        range = ivec2(texelFetch(mapTexels, pieces + 3 + 3 * int(grid.x) + int(cell)).xy);
+        float cell = clamp((value - head.grid.z) * head.grid.w, 0.0, head.grid.y - 1.0);
+        range = ivec2(texelFetch(mapTexels, pieces + 3 + 3 * int(head.grid.x) + int(cell)).xy);
     } else {
         range = halved(pieces, value, halved(pieces, value, halved(pieces, value, range)));
         range = halved(pieces, value, halved(pieces, value, halved(pieces, value, range)));
@@ -64,7 +100,7 @@ int pieceOf(float value, int search, int pieces, vec4 grid, vec4 first, vec4 sec
 }
 
 int mapPiece(float f) {
-    return pieceOf(f, kMapSearch, kMapPieces, mapGrid, mapFirst, mapSecond);
+    return pieceOf(f, kMapSearch, kMapPieces, mapHead);
 }
 
 int densityPieces() {
@@ -72,7 +108,31 @@ int densityPieces() {
 }
 
 int densityPiece(float g) {
-    return pieceOf(g, kDensitySearch, densityPieces(), densityGrid, densityFirst, densitySecond);
+    return pieceOf(g, kDensitySearch, densityPieces(), densityHead);
+}
+
+// How much of the first 7 pieces between points lies below `value`, each from 0 to 1.
+float shareBelow(MapHead head, float value, int piece) {
+    return clamp((value - head.values[piece / 4][piece % 4]) * head.scales[piece / 4][piece % 4],
+                 0.0, 1.0);
+}
+
+vec4 sumOfSlopes(MapHead head, float value, int slopes) {
+    vec4 matter = head.below;
+    for (int i = 0; i < slopes; ++i) matter += shareBelow(head, value, i) * head.rises[i];
+    return matter;
+}
+
+// The first point's value that is met on the way from `from` towards `to`, or `to`.
+float nextPoint(MapHead head, float from, float to, int slopes) {
+    float above = 3.4e38;
+    float below = -3.4e38;
+    for (int i = 0; i <= slopes; ++i) {
+        float value = head.values[i / 4][i % 4];
+        above = min(above, value > from ? value : 3.4e38);
+        below = max(below, value < from ? value : -3.4e38);
+    }
+    return to >= from ? min(above, to) : max(below, to);
 }
 
 // One linear piece of a map.
@@ -84,8 +144,8 @@ struct MapPiece {
 
 MapPiece fetchPiece(int pieces, int piece) {
     int texel = pieces + 3 * piece;
-    vec4 place = texelFetch(mapTexels, texel + 2);
-    return MapPiece(texelFetch(mapTexels, texel), texelFetch(mapTexels, texel + 1), place.x,
+    vec4 place = mapTexel(texel + 2);
+    return MapPiece(mapTexel(texel), mapTexel(texel + 1), place.x,
                     place.w);
 }
 
@@ -93,27 +153,57 @@ vec4 valueIn(MapPiece piece, float value) {
     return piece.start + (value - piece.low) * piece.slope;
 }
 
-vec4 classify(float f) {
-    vec4 matter = valueIn(fetchPiece(kMapPieces, mapPiece(f)), f);
-    return vec4(matter.rgb, max(matter.a, 0.0));
+// What a map gives at `value`, which is in `piece` or at its end.
+vec4 valueOf(int search, int slopes, MapHead head, int pieces, int piece, float value) {
+    return search == 3 ? sumOfSlopes(head, value, slopes)
+                       : valueIn(fetchPiece(pieces, piece), value);
 }
 
-float extinctionOf(float g) {
-    return max(valueIn(fetchPiece(densityPieces(), densityPiece(g)), g).a, 0.0);
+// Where the map bends next on the way from `from` in `piece` towards `to`; `to` where it does not.
+float bendOf(int search, int slopes, MapHead head, int pieces, int piece, float from, float to) {
+    if (search == 3) return nextPoint(head, from, to, slopes);
+    MapPiece here = fetchPiece(pieces, piece);
+    return clamp(to, piece == 0 ? -3.4e38 : here.low, here.high);
+}
+
+vec4 mapValue(int piece, float f) {
+    return valueOf(kMapSearch, kMapSlopes, mapHead, kMapPieces, piece, f);
+}
+
+vec4 densityValue(int piece, float g) {
+    return valueOf(kDensitySearch, kDensitySlopes, densityHead, densityPieces(), piece, g);
+}
+
+float mapBend(int piece, float from, float to) {
+    return bendOf(kMapSearch, kMapSlopes, mapHead, kMapPieces, piece, from, to);
+}
+
+float densityBend(int piece, float from, float to) {
+    return bendOf(kDensitySearch, kDensitySlopes, densityHead, densityPieces(), piece, from, to);
+}
+
+vec4 classify(float f) {
+    vec4 matter = mapValue(mapPiece(f), f);
+    return vec4(matter.rgb, max(matter.a, 0.0));
 }
 
 // C of the map of g.
 vec3 densityColour(float g) {
-    return valueIn(fetchPiece(densityPieces(), densityPiece(g)), g).rgb;
+    return densityValue(densityPiece(g), g).rgb;
 }
 
 vec4 matterAt(float f, float g) {
     vec4 matter = classify(f);
-    return kTwoMaps ? vec4(matter.rgb, extinctionOf(g)) : matter;
+    return kTwoMaps ? vec4(matter.rgb, max(densityValue(densityPiece(g), g).a, 0.0)) : matter;
+}
+
+// Number of points that are not above `f`, whatever the search.
+int pointsUpTo(float f) {
+    return pieceOf(f, kMapSearch == 3 ? 0 : kMapSearch, kMapPieces, mapHead);
 }
 
 bool transparentBetween(float lo, float hi) {
     int texel = kMapPieces + 2;
-    float below = texelFetch(mapTexels, texel + 3 * mapPiece(lo)).y;
-    return texelFetch(mapTexels, texel + 3 * mapPiece(hi)).z == below;
+    float below = texelFetch(mapTexels, texel + 3 * pointsUpTo(lo)).y;
+    return texelFetch(mapTexels, texel + 3 * pointsUpTo(hi)).z == below;
 }

@@ -36,35 +36,36 @@ int stepTowards(float from, float to) {
     return to > from ? 1 : -1;
 }
 
+// The share of a segment up to where a value is `bend`.
+float shareUpTo(float bend, float front, float back) {
+    return clamp((bend - front) / (back - front), 0.0, 1.0);
+}
+
 LinearPart linearPart(MapCursor cursor, Segment rest) {
-    MapPiece here = fetchPiece(kMapPieces, cursor.piece);
     LinearPart part;
     part.first = cursor.matter;
-    part.f = clamp(rest.back, cursor.piece == 0 ? -3.4e38 : here.low, here.high);
+    part.f = mapBend(cursor.piece, rest.front, rest.back);
     part.g = rest.densityBack;
     part.all = part.f == rest.back;
-    float share = part.all ? 1.0 : clamp((part.f - rest.front) / (rest.back - rest.front), 0.0, 1.0);
+    float share = part.all ? 1.0 : shareUpTo(part.f, rest.front, rest.back);
     part.turn = ivec2(part.all ? 0 : stepTowards(part.f, rest.back), 0);
-    part.last = valueIn(here, part.f);
     if (kTwoMaps) {
-        MapPiece there = fetchPiece(densityPieces(), cursor.densityPiece);
-        float g = clamp(rest.densityBack, cursor.densityPiece == 0 ? -3.4e38 : there.low,
-                        there.high);
+        float g = densityBend(cursor.densityPiece, rest.densityFront, rest.densityBack);
         bool whole = g == rest.densityBack;
-        float other = whole ? 1.0 : clamp((g - rest.densityFront) /
-                                          (rest.densityBack - rest.densityFront), 0.0, 1.0);
+        float other = whole ? 1.0 : shareUpTo(g, rest.densityFront, rest.densityBack);
         // The map that bends first decides; where both do, both go on.
-        bool first = part.all && !whole || other < share;
-        bool both = !part.all && !whole && other == share;
-        part.turn = ivec2(first ? 0 : part.turn.x,
-                          first || both ? (whole ? 0 : stepTowards(g, rest.densityBack)) : 0);
-        part.f = first ? mix(rest.front, rest.back, other) : part.f;
-        part.g = first || both || whole && part.all
+        bool second = !whole && (part.all || other < share);
+        bool both = !whole && !part.all && other == share;
+        part.turn.y = second || both ? stepTowards(g, rest.densityBack) : 0;
+        part.g = second || both || (whole && part.all)
                      ? g : mix(rest.densityFront, rest.densityBack, share);
-        share = first ? other : share;
+        if (second) part.turn.x = 0;
+        if (second) part.f = mix(rest.front, rest.back, other);
+        share = second ? other : share;
         part.all = part.all && whole;
-        part.last = vec4(valueIn(here, part.f).rgb, valueIn(there, part.g).a);
     }
+    part.last = mapValue(cursor.piece, part.f);
+    if (kTwoMaps) part.last.a = densityValue(cursor.densityPiece, part.g).a;
     part.last.a = max(part.last.a, 0.0);
     part.extent = part.all ? rest.extent : rest.extent * share;
     return part;

@@ -108,21 +108,24 @@ void enterAt(inout RayState state, Walk walk, Line line) {
     if (kContinuous) enterData(state, startOf(walk, line.worldPerDepth));
 }
 
+// Nothing may be left of a cell's piece when the model's turn comes.
+const bool kMayBeEmpty = kCutsFront || kCutsBack || kInterval;
+
 // Hands the model a part of `rest`. True: the ray is at its end.
 bool gather(inout RayState state, inout Segment rest, Walk walk, Line line) {
     bool ended = false;
-    if (rest.extent >= 0.0) ended = stepRay(state, rest) && kEarlyStop;
+    if (!kMayBeEmpty || rest.extent >= 0.0) ended = stepRay(state, rest) && kEarlyStop;
     bool past = kCutsBack && walk.depth * line.worldPerDepth >= line.window.end;
-    return ended || (past && rest.extent < 0.0);
+    return ended || (past && (kPartsAStep == 1 || rest.extent < 0.0));
 }
 
 // Goes on until the mesh is left, the ray is at its end (true), or no steps are left.
 bool crossCells(inout Walk walk, inout RayState state, inout Segment rest, inout int steps,
                 Line line) {
     bool ended = false;
-    while ((walk.cell >= 0 || rest.extent >= 0.0) && !ended && steps > 0) {
+    while ((walk.cell >= 0 || (kPartsAStep > 1 && rest.extent >= 0.0)) && !ended && steps > 0) {
         --steps;
-        if (rest.extent < 0.0) {
+        if (kPartsAStep == 1 || rest.extent < 0.0) {
             rest = trimmed(crossCell(walk, line.sight, line.worldPerDepth), line.window);
             if (!kContinuous) enterData(state, rest);
         }

@@ -18,15 +18,15 @@ Extreme noExtreme() {
 // The largest colour of the points from `first` to `last`.
 vec3 largestOfPoints(int first, int last) {
     int level = findMSB(last - first + 1);
-    int row = int(mapSections.z) + level * int(mapGrid.x);
+    int row = int(mapSections.z) + level * int(mapHead.grid.x);
     return max(texelFetch(mapTexels, row + first).rgb,
                texelFetch(mapTexels, row + last + 1 - (1 << level)).rgb);
 }
 
 vec3 largestColour(Extreme extreme) {
     if (extreme.low > extreme.high) return extreme.colour;
-    int first = mapPiece(extreme.low);
-    int last = mapPiece(extreme.high) - 1;
+    int first = pointsUpTo(extreme.low);
+    int last = pointsUpTo(extreme.high) - 1;
     vec3 colour = max(extreme.colour, max(classify(extreme.low).rgb, classify(extreme.high).rgb));
     return last >= first ? max(colour, largestOfPoints(first, last)) : colour;
 }
