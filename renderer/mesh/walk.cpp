@@ -116,7 +116,7 @@ shading::Recipe walkRecipe(const WalkTraits& traits, std::vector<shading::Consta
                                        {"kClipsAtStart", traits.clipsAtStart},
                                        {"kEarlyStop", traits.earlyStop},
                                        {"kMaxSteps", listed ? kMaxStepsListed : kMaxStepsConvex},
-                                       {"kPartsAStep", splitsPieces(traits) ? 2 : 1},
+                                       {"kSplits", splitsPieces(traits)},
                                        {"kCounts", traits.counts},
                                        {"kResumes", traits.resumes},
                                        {"kCountsSteps", traits.countsSteps}});

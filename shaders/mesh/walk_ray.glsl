@@ -9,10 +9,11 @@
 //
 // A model may take a cell's piece in parts, as where its map bends. There is no inner loop for
 // that: all rays of a group would wait in each cell for the one with the most parts. The loop
-// crosses a cell where nothing is left of the last piece, then takes up to kPartsAStep parts.
+// crosses a cell where nothing is left of the last piece, then takes one part. (Taking up to two
+// parts in a round measured a third slower: both run for every ray.)
 // Constants: kValuesAt, kDensityAt; kListed: pixels have lists of entries (the mesh is not convex);
 // kContinuous: a piece's front values are the back values of the one before; those of mesh/trim.glsl;
-// kEarlyStop: the model may end a ray; kMaxSteps: a draw; kPartsAStep; kCounts: rays that need more
+// kEarlyStop: the model may end a ray; kMaxSteps: a draw; kSplits: pieces are taken in parts; kCounts: rays that need more
 // steps are counted; kResumes: they go on from where the last draw left them; kCountsSteps; kLit.
 // Source of the perturbation: H. Edelsbrunner, E. Muecke, Simulation of Simplicity, ACM TOG 9(1),
 // 1990.
@@ -116,23 +117,20 @@ bool gather(inout RayState state, inout Segment rest, Walk walk, Line line) {
     bool ended = false;
     if (!kMayBeEmpty || rest.extent >= 0.0) ended = stepRay(state, rest) && kEarlyStop;
     bool past = kCutsBack && walk.depth * line.worldPerDepth >= line.window.end;
-    return ended || (past && (kPartsAStep == 1 || rest.extent < 0.0));
+    return ended || (past && (!kSplits || rest.extent < 0.0));
 }
 
 // Goes on until the mesh is left, the ray is at its end (true), or no steps are left.
 bool crossCells(inout Walk walk, inout RayState state, inout Segment rest, inout int steps,
                 Line line) {
     bool ended = false;
-    while ((walk.cell >= 0 || (kPartsAStep > 1 && rest.extent >= 0.0)) && !ended && steps > 0) {
+    while ((walk.cell >= 0 || (kSplits && rest.extent >= 0.0)) && !ended && steps > 0) {
         --steps;
-        if (kPartsAStep == 1 || rest.extent < 0.0) {
+        if (!kSplits || rest.extent < 0.0) {
             rest = trimmed(crossCell(walk, line.sight, line.worldPerDepth), line.window);
             if (!kContinuous) enterData(state, rest);
         }
         ended = gather(state, rest, walk, line);
-        if (kPartsAStep > 1 && !ended && rest.extent >= 0.0) {
-            ended = gather(state, rest, walk, line);
-        }
     }
     return ended;
 }
