@@ -109,6 +109,24 @@ void planEarlyStop(LayerPlan& plan, const Matter& matter) {
     }
 }
 
+/// Cells that are left out: not marked, or without a value.
+void planCells(LayerPlan& plan, const Matter& matter) {
+    if (!matter.summary.isMesh) return;
+    std::uint64_t without = 0;
+    if (scene::needsField(matter.layer) && matter.field != nullptr) {
+        without = matter.field->cellsWithoutValue;
+        if (matter.second) without += matter.second->field->cellsWithoutValue;
+    }
+    const bool marked = !matter.layer.markers.field.empty();
+    std::string reason = "all cells are drawn";
+    if (marked) reason = "only cells marked in \"" + matter.layer.markers.field + "\" are drawn";
+    if (without > 0) {
+        reason = (marked ? reason + "; " : std::string{}) + std::to_string(without) +
+                 " cell(s) without a value (NaN) are left out";
+    }
+    add(plan, kCellsLeftOut, marked || without > 0, reason);
+}
+
 void planSelection(LayerPlan& plan, const Matter& matter, const scene::Scene& scene) {
     const Layer& layer = matter.layer;
     add(plan, kInterval, layer.interval.has_value(),
@@ -118,6 +136,7 @@ void planSelection(LayerPlan& plan, const Matter& matter, const scene::Scene& sc
     const std::size_t planes = scene.clipPlanes.size();
     add(plan, kClipPlanes, planes > 0,
         planes > 0 ? std::to_string(planes) + " plane(s) cut the data" : "no plane cuts the data");
+    planCells(plan, matter);
     const bool scaled = scene::mainField(layer, matter.summary).scale != scene::Scale{};
     add(plan, kScale, scaled,
         scaled ? "values are scaled once, when they are uploaded" : "values are taken as they are");

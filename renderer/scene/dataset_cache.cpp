@@ -50,27 +50,49 @@ std::string keyOf(const FieldUse& use, int timeStep) {
 CachedDataset::CachedDataset(data::Dataset dataset, std::uint64_t generation)
     : data_{std::move(dataset)}, summary_{data::summarize(data_)}, generation_{generation} {}
 
-Result<const mesh::MeshGpu*> CachedDataset::mesh(gpu::Device& device) {
-    if (mesh_ == nullptr) {
-        Result<std::unique_ptr<mesh::MeshGpu>> uploaded =
-            mesh::MeshGpu::upload(device, std::get<data::Mesh>(data_));
-        if (!uploaded) return uploaded.error();
-        mesh_ = std::move(*uploaded);
+Result<const MeshPart*> CachedDataset::part(gpu::Device& device, const Layer& layer,
+                                            std::uint64_t frame) {
+    const auto& whole = std::get<data::Mesh>(data_);
+    const std::string key = partKey(layer, summary_);
+    auto kept = parts_.find(key);
+    if (kept == parts_.end()) {
+        trim(parts_, frame);
+        auto made = key.empty() ? Result<MeshPart>{MeshPart{}} : makePart(whole, layer, summary_);
+        if (!made) return std::move(made).error();
+        kept = parts_.emplace(key, std::move(*made)).first;
     }
-    return mesh_.get();
+    MeshPart& part = kept->second;
+    part.frame = frame;
+    const data::Mesh& mesh = part.mesh(whole);
+    if (part.gpu == nullptr && !mesh.cells.empty()) {
+        auto uploaded = mesh::MeshGpu::upload(device, mesh);
+        if (!uploaded) return std::move(uploaded).error();
+        part.gpu = std::move(*uploaded);
+    }
+    return &part;
 }
 
-Result<const mesh::FieldGpu*> CachedDataset::field(gpu::Device& device, const FieldUse& use,
-                                                   int timeStep, std::uint64_t frame) {
-    const auto& mesh = std::get<data::Mesh>(data_);
-    const std::string key = keyOf(use, timeStep);
+Result<const mesh::FieldGpu*> CachedDataset::field(gpu::Device& device, const Layer& layer,
+                                                   const MeshPart& part, const FieldUse& use,
+                                                   std::uint64_t frame) {
+    const auto& whole = std::get<data::Mesh>(data_);
+    const data::Field& field = named(whole.fields, use.field->name);
+    // Values at vertices serve every part.
+    const bool gathered =
+        part.restriction.has_value() && field.association != data::Association::kVertex;
+    const std::string key =
+        keyOf(use, layer.timeStep) + (gathered ? "|" + partKey(layer, summary_) : std::string{});
     auto kept = fields_.find(key);
     if (kept == fields_.end()) {
         trim(fields_, frame);
-        Result<std::unique_ptr<mesh::FieldGpu>> uploaded =
-            mesh::FieldGpu::upload(device, mesh, named(mesh.fields, use.field->name), timeStep,
-                                   ScaleFunction{use.scale, use.field->range});
-        if (!uploaded) return uploaded.error();
+        const ScaleFunction scale{use.scale, use.field->range};
+        auto uploaded =
+            gathered ? mesh::FieldGpu::upload(device, part.restriction->mesh,
+                                              data::restrictField(field, layer.timeStep,
+                                                                  part.restriction->source.span()),
+                                              0, scale)
+                     : mesh::FieldGpu::upload(device, whole, field, layer.timeStep, scale);
+        if (!uploaded) return std::move(uploaded).error();
         kept =
             fields_.emplace(key, Kept<std::unique_ptr<mesh::FieldGpu>>{std::move(*uploaded)}).first;
     }

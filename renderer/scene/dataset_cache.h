@@ -9,6 +9,7 @@
 #include "renderer/data/dataset.h"
 #include "renderer/mesh/walk.h"
 #include "renderer/scene/layer_fields.h"
+#include "renderer/scene/mesh_part.h"
 #include "renderer/scene/scene.h"
 #include "renderer/volume/march.h"
 
@@ -24,11 +25,13 @@ public:
     /// Differs between datasets that had the same id one after the other.
     [[nodiscard]] std::uint64_t generation() const noexcept { return generation_; }
 
-    /// Uploads on the first call. Needs a mesh. Errors: as mesh::MeshGpu::upload.
-    Result<const mesh::MeshGpu*> mesh(gpu::Device& device);
-    /// A field at a time step, uploaded when first asked for. Needs a mesh with fields.
-    /// Pointers stay good until a call with a larger `frame`. Errors: as mesh::FieldGpu::upload.
-    Result<const mesh::FieldGpu*> field(gpu::Device& device, const FieldUse& use, int timeStep,
+    /// The cells that `layer` draws, uploaded when first asked for. Needs a mesh. Pointers stay
+    /// good until a call with a larger `frame`. Errors: as makePart, mesh::MeshGpu::upload.
+    Result<const MeshPart*> part(gpu::Device& device, const Layer& layer, std::uint64_t frame);
+    /// A field of the cells of `layer` at its time step, uploaded when first asked for; likewise.
+    /// Errors: as mesh::FieldGpu::upload.
+    Result<const mesh::FieldGpu*> field(gpu::Device& device, const Layer& layer,
+                                        const MeshPart& part, const FieldUse& use,
                                         std::uint64_t frame);
     /// The channel of `layer`. Needs a volume. Errors: as volume::ChannelGpu::upload.
     Result<const volume::ChannelGpu*> channel(gpu::Device& device, const Layer& layer,
@@ -43,7 +46,7 @@ private:
     data::Dataset data_;
     data::DatasetSummary summary_;
     std::uint64_t generation_;
-    std::unique_ptr<mesh::MeshGpu> mesh_;
+    std::map<std::string, MeshPart> parts_;                                ///< By partKey().
     std::map<std::string, Kept<std::unique_ptr<mesh::FieldGpu>>> fields_;  ///< By keyOf().
     std::map<std::string, Kept<volume::ChannelGpu>> channels_;
 };

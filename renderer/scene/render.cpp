@@ -38,7 +38,7 @@ struct LayerDraw {
     const plan::LayerPlan* plan = nullptr;
     CachedDataset* dataset = nullptr;
     LayerState* state = nullptr;
-    const mesh::MeshGpu* mesh = nullptr;
+    const MeshPart* part = nullptr;  // Of a mesh.
     const mesh::FieldGpu* field = nullptr;
     const mesh::FieldGpu* density = nullptr;
     const volume::ChannelGpu* channel = nullptr;
@@ -276,17 +276,17 @@ Result<void> DeviceRenderer::prepareLayer(Frame& frame, LayerDraw& draw) {
         draw.channel = *channel;
         return {};
     }
-    const Result<const mesh::MeshGpu*> mesh = draw.dataset->mesh(device_);
-    if (!mesh) return mesh.error();
-    draw.mesh = *mesh;
+    const auto part = draw.dataset->part(device_, *draw.layer, frame_);
+    if (!part) return part.error();
+    draw.part = *part;
     if (!needsField(*draw.layer)) return {};
     const FieldUse use = mainField(*draw.layer, draw.dataset->summary());
-    const auto field = draw.dataset->field(device_, use, draw.layer->timeStep, frame_);
+    const auto field = draw.dataset->field(device_, *draw.layer, **part, use, frame_);
     if (!field) return field.error();
     draw.field = *field;
     const auto second = secondField(*draw.layer, draw.dataset->summary());
     if (!second) return {};
-    const auto density = draw.dataset->field(device_, *second, draw.layer->timeStep, frame_);
+    const auto density = draw.dataset->field(device_, *draw.layer, **part, *second, frame_);
     if (!density) return density.error();
     draw.density = *density;
     return {};
@@ -337,11 +337,12 @@ Result<void> DeviceRenderer::drawLayer(const Frame& frame, const LayerDraw& draw
                                   .constants = draw.constants,
                                   .target = &frame.picture->transparentPass});
     }
+    if (draw.part->gpu == nullptr) return {};  // No cell is left to draw.
     const mesh::DrawInputs inputs{
         .device = &device_,
         .programs = &programs_,
-        .mesh = &std::get<data::Mesh>(draw.dataset->data()),
-        .meshGpu = draw.mesh,
+        .mesh = &draw.part->mesh(std::get<data::Mesh>(draw.dataset->data())),
+        .meshGpu = draw.part->gpu.get(),
         .field = draw.field,
         .density = draw.density,
         .layer = draw.layer,

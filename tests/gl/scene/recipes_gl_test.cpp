@@ -7,20 +7,12 @@
 #include "renderer/shading/shared.h"
 #include "renderer/volume/march.h"
 #include "tests/support/gl_test.h"
+#include "tests/support/layer_constants.h"
 
 namespace volcast {
 namespace {
 
 using support::must;
-
-/// What a layer gives to a recipe.
-std::vector<shading::Constant> layerConstants(int search, bool endsAtSurfaces) {
-    return {{"kMapSearch", search},
-            {"kDensitySearch", 0},
-            {"kTwoMaps", false},
-            {"kPreintegratedSide", 256},
-            {"kEndsAtSurfaces", endsAtSurfaces}};
-}
 
 class Recipes : public support::GlTest {
 protected:
@@ -39,9 +31,9 @@ TEST_F(Recipes, EveryModelOfVolumesMarchesInEveryVariant) {
                 plan.effects.push_back(
                     {.name = effect, .on = (variant >> bit++ & 1) != 0, .reason = "test"});
             }
-            const auto program = programs_.ray(volume::marchRecipe(
-                plan, static_cast<scene::RayModel>(row), (variant >> 3 & 1) != 0,
-                layerConstants(variant % 3, (variant >> 4 & 1) != 0)));
+            const auto program = programs_.ray(
+                volume::marchRecipe(plan, static_cast<scene::RayModel>(row),
+                                    (variant >> 3 & 1) != 0, support::layerConstants(variant)));
             ASSERT_TRUE(program.has_value()) << program.error().message;
             ++built;
         }
@@ -52,7 +44,7 @@ TEST_F(Recipes, EveryModelOfVolumesMarchesInEveryVariant) {
 TEST_F(Recipes, TheLayerBlockLiesInMemoryAsTheDriverSeesIt) {
     plan::LayerPlan plan;
     const auto* program = must(programs_.ray(
-        volume::marchRecipe(plan, scene::RayModel::kVolume, true, layerConstants(0, true))));
+        volume::marchRecipe(plan, scene::RayModel::kVolume, true, support::layerConstants(2))));
     using shading::shared::LayerBlock;
     EXPECT_EQ(program->blockBytes("LayerUniforms"), static_cast<int>(sizeof(LayerBlock)));
     const auto offset = [&](const char* member) {

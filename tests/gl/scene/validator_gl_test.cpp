@@ -22,6 +22,7 @@
 #include "renderer/shading/program_cache.h"
 #include "renderer/volume/march.h"
 #include "tests/support/import_files.h"
+#include "tests/support/layer_constants.h"
 
 namespace volcast {
 namespace {
@@ -169,15 +170,6 @@ private:
     // NOLINTEND(readability-identifier-naming)
 };
 
-/// What layers give to recipes, in the variant `bits`.
-std::vector<Constant> layerConstants(int bits) {
-    return {{"kMapSearch", bits % 3},
-            {"kDensitySearch", bits % 3},
-            {"kTwoMaps", bit(bits, 0)},
-            {"kPreintegratedSide", 256},
-            {"kEndsAtSurfaces", bit(bits, 1)}};
-}
-
 void Validator::addMarches() {
     for (std::size_t row = 0; row < scene::rayModels().size(); ++row) {
         if (!scene::rayModels()[row].onVolumes) continue;
@@ -190,7 +182,7 @@ void Validator::addMarches() {
                     {.name = effect, .on = bit(variant, effects++), .reason = "test"});
             }
             addRay(volume::marchRecipe(plan, static_cast<scene::RayModel>(row), bit(variant, 3),
-                                       layerConstants(variant >> 3)),
+                                       support::layerConstants(variant >> 3)),
                    shading::kFullScreenVertex);
         }
     }
@@ -231,13 +223,13 @@ void Validator::addWalk(const scene::RayModelRow& row, const scene::IntegratorRo
         traits.lit = traits.levels;
         traits.oneColour = !traits.levels && integrator.integrator == scene::Integrator::kExact;
     }
-    addRay(mesh::walkRecipe(traits, layerConstants(bits)), shading::kFullScreenVertex);
+    addRay(mesh::walkRecipe(traits, support::layerConstants(bits)), shading::kFullScreenVertex);
 }
 
 void Validator::addSurfaces() {
     for (int variant = 0; variant < 48; ++variant) {
         std::vector<Constant> constants{{"kEndsAtSurfaces", false}};
-        if (bit(variant, 0)) constants = layerConstants(variant);
+        if (bit(variant, 0)) constants = support::layerConstants(variant);
         addRay(mesh::surfaceRecipe({.coloured = bit(variant, 0),
                                     .headlight = bit(variant, 1),
                                     .edges = bit(variant, 2),
