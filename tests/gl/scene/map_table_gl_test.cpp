@@ -103,11 +103,22 @@ data::TransferFunction evenMap(int count) {
     return map;
 }
 
-TEST_F(MapTableTest, AFewPointsAreCompared) {
+TEST_F(MapTableTest, AFewPointsAreASum) {
     for (const int count : {1, 2, 5, 8}) {
         expectAsDefined(evenMap(count));
-        EXPECT_EQ(search_, static_cast<int>(MapSearch::kCompareAll));
+        EXPECT_EQ(search_, static_cast<int>(MapSearch::kSlopes));
     }
+}
+
+// 1e6 up and down again would leave nothing of 1e-3 in a sum.
+TEST_F(MapTableTest, AFewPointsThatWouldCancelAreCompared) {
+    data::TransferFunction map = evenMap(5);
+    map.points[1].extinction = 1e6F;
+    map.points[2].extinction = 1e-3F;
+    map.points[3].extinction = 1e-3F;
+    expectAsDefined(map);
+    EXPECT_EQ(search_, static_cast<int>(MapSearch::kCompareAll));
+    EXPECT_EQ(classified(map, {102.5F})[0].a, 1e-3F);
 }
 
 TEST_F(MapTableTest, ManyEvenPointsUseAGrid) {
@@ -134,6 +145,7 @@ TEST_F(MapTableTest, EqualValuesMakeAStepAndTheLastCounts) {
             map.points[2].colour.r = static_cast<float>(i);
         }
         expectAsDefined(map);
+        EXPECT_NE(search_, static_cast<int>(MapSearch::kSlopes)) << "a step has no slope";
     }
     data::TransferFunction all = evenMap(20);
     for (data::ControlPoint& point : all.points) point.value = 3.0F;
