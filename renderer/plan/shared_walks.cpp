@@ -89,6 +89,7 @@ void joinVolume(const scene::Scene& scene, FramePlan& frame, std::size_t volume)
         return layer.model == RayModel::kIsosurface && sameData(layer, scene.layers[volume]) &&
                layer.headlight;
     });
+    set(plan, kEarlyStop, true, "an isosurface ends a ray");
     set(plan, kGradient, lit, lit ? "isosurfaces are lit from the eye" : "isosurfaces are unlit");
     if (!anyOwnOpaque(scene, frame)) {
         set(plan, kEndsAtSurfaces, false, "the opaque layers are in the same walk");

@@ -25,6 +25,7 @@ private:
     MapSearch search_ = MapSearch::kCompareAll;
     MapSearch densitySearch_ = MapSearch::kCompareAll;
     int slopes_ = 0, densitySlopes_ = 0;
+    bool steps_ = false, densitySteps_ = false;
     bool inBlock_ = true;  ///< All pieces are in the uniform block.
     gpu::Buffer buffer_;
 };

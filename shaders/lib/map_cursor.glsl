@@ -1,5 +1,6 @@
 // Where a ray is in its layer's maps: the pieces that hold its values, and what they give there.
 // Along a ray that goes on, the next piece is a neighbour of the last: nothing has to be searched.
+// Constants: kMapSteps, kDensitySteps: the maps of f and g jump somewhere.
 struct MapCursor {
     int piece;         // of f
     int densityPiece;  // of g; kTwoMaps
@@ -44,6 +45,12 @@ float shareUpTo(float bend, float front, float back) {
 LinearPart linearPart(MapCursor cursor, Segment rest) {
     LinearPart part;
     part.first = cursor.matter;
+    // Beyond a step the map begins anew.
+    if (kMapSteps) part.first = mapValue(cursor.piece, rest.front);
+    if (kTwoMaps && (kMapSteps || kDensitySteps)) {
+        part.first.a = densityValue(cursor.densityPiece, rest.densityFront).a;
+    }
+    if (kMapSteps || kDensitySteps) part.first.a = max(part.first.a, 0.0);
     part.f = mapBend(cursor.piece, rest.front, rest.back);
     part.g = rest.densityBack;
     part.all = part.f == rest.back;

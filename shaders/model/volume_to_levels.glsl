@@ -9,7 +9,7 @@ struct RayState {
     LevelCursor levels;
     vec3 colour;    // premultiplied, linear
     float opacity;  // of all pieces so far
-    int level;      // that ended the ray; -1: none yet
+    int level;      // that ends the ray with the piece in hand; -1: none yet
     float distance;
 };
 
@@ -25,20 +25,20 @@ void enterData(inout RayState state, Segment piece) {
 }
 
 bool stepRay(inout RayState state, inout Segment rest) {
-    // Cut at the level; what is left then ends on it, and meets it again when it is its turn.
+    // Cut at the level once; what is left of the piece then ends on it.
     LevelHit hit = firstLevel(state.levels, rest);
-    if (hit.met) {
+    if (hit.met && state.level < 0) {
         rest.densityBack = mix(rest.densityFront, rest.densityBack, hit.share);
         rest.back = hit.value;
         rest.extent *= hit.share;
+        state.level = hit.index;
     }
     float end = rest.distance + rest.extent;
     vec4 share = integrateSegment(state.cursor, rest);
     float through = 1.0 - state.opacity;
     state.colour += through * share.rgb;
     state.opacity += through * share.a;
-    bool reached = hit.met && rest.extent < 0.0;
-    state.level = reached ? hit.index : -1;
+    bool reached = state.level >= 0 && rest.extent < 0.0;
     state.distance = reached ? end : kNoHit;
     return reached || state.opacity > kFinishedOpacity;
 }
@@ -48,7 +48,7 @@ bool skipsBetween(RayState state, float lo, float hi) {
 }
 
 vec4 endRay(RayState state, float facing) {
-    if (state.level < 0) return vec4(state.colour, state.opacity);
+    if (state.distance >= kNoHit) return vec4(state.colour, state.opacity);
     vec3 surface = levelAt(state.level).yzw * (kLit ? facing : 1.0);
     return vec4(state.colour + (1.0 - state.opacity) * surface, 1.0);
 }

@@ -15,6 +15,8 @@ inline std::vector<shading::Constant> layerConstants(int bits) {
             {"kDensitySearch", (bits >> 4) % 4},
             {"kMapSlopes", bit(3) ? 4 : 7},
             {"kDensitySlopes", bit(4) ? 4 : 7},
+            {"kMapSteps", bit(2)},
+            {"kDensitySteps", bit(0)},
             {"kMapInBlock", bit(2)},
             {"kTwoMaps", bit(0)},
             {"kPreintegratedSide", scene::kPreintegratedSide},
