@@ -62,8 +62,9 @@ public:
         return static_cast<std::size_t>(found - places_.begin());
     }
     [[nodiscard]] glm::dvec2 centre(std::size_t i) const {
-        return {static_cast<double>(places_[i] % width_) - 0.5,
-                static_cast<double>(places_[i] / width_) - 0.5};
+        const std::int64_t row = places_[i] / width_;
+        const std::int64_t column = places_[i] % width_;
+        return {static_cast<double>(column) - 0.5, static_cast<double>(row) - 0.5};
     }
 
 private:

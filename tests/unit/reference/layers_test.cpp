@@ -180,6 +180,26 @@ TEST(NearEdge, IsTheRimOfWhatIsSeen) {
     EXPECT_EQ(flagged(ball).first, one);
 }
 
+TEST(NearEdge, IsNotTheRimOfWhatIsHidden) {
+    // A plate, and behind it a cube that it hides: as many pixels as for the plate alone.
+    const auto flagged = [](bool cube) {
+        const data::Mesh mesh =
+            boxOf({.cubes = glm::ivec3{5},
+                   .keep =
+                       [&](const auto& c) {
+                           return c.z == 0 || (cube && c == glm::ivec3{2, 2, 4});
+                       }},
+                  [](const auto& p) { return p.z; });
+        scene::Camera camera = along({0.9, 0.8, -3.0}, {0.5, 0.5, 0.5});
+        camera.orthographicHeight = 2.0;
+        const auto scene = sceneOf(camera, {layerOf(RayModel::kSurface, ramp())});
+        const Picture picture = drawn(scene, mesh, {64, 64});
+        return std::count(picture.nearEdge.begin(), picture.nearEdge.end(), 1);
+    };
+    EXPECT_GT(flagged(false), 34 * 34 - 30 * 30);  // Seen at an angle: the plate's sides show.
+    EXPECT_EQ(flagged(true), flagged(false));
+}
+
 TEST(Refusals, NameWhatIsWrong) {
     const data::Mesh mesh = opposed();
     const std::map<std::string, const data::Mesh*> meshes{{"mesh", &mesh}};

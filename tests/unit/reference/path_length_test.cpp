@@ -104,6 +104,81 @@ TEST(PathLength, IsThatOfTheBoxWhereCellsAreMovedAndTheRayIsAnyRay) {
     }
 }
 
+TEST(PathLength, IsThatOfTheBoxWhereCellsAreNeedles) {
+    // Sides of 2^-20, 1 and 2^20; everything is exact but the shear.
+    const glm::ivec3 cubes{4};
+    const glm::dvec3 sides{0x1p-20, 1.0, 0x1p20};
+    const data::Mesh mesh = test::boxOf({.cubes = cubes, .low = glm::dvec3{0.0}, .high = sides},
+                                        [](const auto&) { return 0.0; });
+    const Caster caster{mesh};
+    std::mt19937 random{4};
+    std::uniform_real_distribution<double> share{-1.0, 1.0};
+    for (int i = 0; i < 1000; ++i) {
+        const glm::dvec3 way{share(random), share(random), share(random)};
+        const glm::dvec3 target{0.5 + 0.5 * share(random), 0.5 + 0.5 * share(random), 0.5};
+        const double length = glm::length(way * sides);
+        const Ray ray{.origin = (target - 2.0 * way) * sides, .direction = way * sides / length};
+        bool inSide = false;
+        const double expected =
+            length * inBox({.origin = target - 2.0 * way, .direction = way}, 1.0, inSide);
+        const auto pieces = piecesOf(caster, ray);
+        // Distances of up to some 2^21 are rounded to 2^-32, at most a few times a piece.
+        ASSERT_NEAR(sumOf(pieces), expected, 1e-8 + 1e-12 * expected) << i;
+        for (std::size_t k = 1; k < pieces.size(); ++k) ASSERT_TRUE(pieces[k].joined) << i;
+    }
+}
+
+TEST(PathLength, IsThatOfTheBoxWhereFloatsTurnCellsInsideOut) {
+    // A layer of 1e-9, turned so that rounding to float32 throws its corners about; its field keeps
+    // corners apart that coincide then.
+    const glm::dmat3 turn{glm::normalize(glm::dvec3{1, 2, 2}),
+                          glm::normalize(glm::dvec3{-2, -1, 2}),
+                          glm::normalize(glm::dvec3{2, -2, 1})};
+    constexpr double kLayer = 1.0 / 3.0;
+    const data::Mesh mesh = test::boxOf(
+        {.cubes = glm::ivec3{3},
+         .move =
+             [&](glm::dvec3 p) {
+                 if (p.z > 0.5 && p.z < 0.9) {
+                     p.z = kLayer + 1e-9;
+                     if (p.x > 0.1 && p.x < 0.9) p.x += 0.05;
+                     if (p.y > 0.1 && p.y < 0.9) p.y += 0.03;
+                 }
+                 return turn * p;
+             }},
+        [&](const auto& p) { return glm::dot(turn[2], p) > kLayer + 5e-10 ? 1.0 : 0.0; });
+    const Caster caster{mesh};
+    std::mt19937 random{5};
+    std::uniform_real_distribution<double> share{0.05, 0.95};
+    int turned = 0;
+    for (int i = 0; i < 1000; ++i) {
+        const glm::dvec3 from{share(random), share(random), -1.0};
+        const glm::dvec3 to{share(random), share(random), 2.0};
+        const glm::dvec3 way = glm::normalize(to - from);
+        const auto pieces = piecesOf(caster, {.origin = turn * from, .direction = turn * way});
+        for (std::size_t k = 0; k < pieces.size(); ++k) {
+            turned += pieces[k].back.distance < pieces[k].front.distance ? 1 : 0;
+            ASSERT_TRUE(k == 0 || pieces[k].joined) << i;
+        }
+        bool inSide = false;
+        const double expected = inBox({.origin = from, .direction = way}, 1.0, inSide);
+        ASSERT_NEAR(sumOf(pieces), expected, 4.0 * 6e-8 / std::abs(way.z) * 3.0) << i;
+    }
+    EXPECT_GT(turned, 100);
+}
+
+TEST(PathLength, OfAVeryLongRay) {
+    constexpr int kCubes = 30000;
+    const data::Mesh mesh =
+        test::boxOf({.cubes = {1, 1, kCubes}, .low = glm::dvec3{0.0}, .high = {1, 1, kCubes}},
+                    [](const auto&) { return 0.0; });
+    const auto pieces =
+        piecesOf(Caster{mesh}, {.origin = {0.3, 0.6, -1.0}, .direction = {0, 0, 1}});
+    EXPECT_GT(pieces.size(), 65535U);
+    EXPECT_NEAR(sumOf(pieces), kCubes, 1e-11 * kCubes);
+    for (std::size_t k = 1; k < pieces.size(); ++k) ASSERT_TRUE(pieces[k].joined);
+}
+
 TEST(PathLength, PiecesFollowTheFacesWhereDistancesTie) {
     // Three pieces of length 0 at one place, and the two around them, in the worst order.
     const auto piece = [](double front, double back, int enter, int leave) {
