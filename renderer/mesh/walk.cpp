@@ -10,6 +10,7 @@
 #include "renderer/mesh/walk_cache.h"
 #include "renderer/plan/effects.h"
 #include "renderer/scene/ray_models.h"
+#include "renderer/shading/psi_table.h"
 
 namespace volcast::mesh {
 
@@ -119,6 +120,7 @@ shading::Recipe walkRecipe(const WalkTraits& traits, std::vector<shading::Consta
                                        {"kSplits", splitsPieces(traits)},
                                        {"kCounts", traits.counts},
                                        {"kResumes", traits.resumes},
+                                       {"kPsiTableSide", shading::kPsiTableSide},
                                        {"kCountsSteps", traits.countsSteps}});
     shading::Recipe recipe{.evaluator = row.opaque ? "mesh/walk_opaque.glsl" : "mesh/walk.glsl",
                            .classify = "classify/transfer_function.glsl",

@@ -10,6 +10,7 @@
 
 #include "renderer/base/result.h"
 #include "renderer/data/mesh.h"
+#include "renderer/gpu/buffer.h"
 #include "renderer/gpu/target.h"
 #include "renderer/plan/plan.h"
 #include "renderer/scene/camera.h"
@@ -90,7 +91,8 @@ struct DrawInputs {
     /// To be put, before the mesh's own, into every recipe and pass that includes lib/layer.glsl or
     /// classifies by classify/transfer_function.glsl.
     std::vector<shading::Constant> constants;
-    int clipPlanes = 0;  ///< In the layer block.
+    int clipPlanes = 0;                     ///< In the layer block.
+    const gpu::Buffer* psiTable = nullptr;  ///< Where the integrator reads it, else null.
     /// Rays: colour 0, 32F, premultiplied, blended "over" (PassState{.blend = Blend::kOver}).
     /// Opaque models: colour 0 as before (opaque: alpha 1), colour 1 R32F the distance along the
     /// ray from its origin, and a depth attachment (DepthTest::kNearest; clip positions by

@@ -7,6 +7,7 @@
 
 #include "renderer/mesh/mesh_buffers.h"
 #include "renderer/mesh/shared.h"
+#include "renderer/shading/shared.h"
 
 namespace volcast::mesh {
 
@@ -116,6 +117,7 @@ void WalkCache::bind(const DrawInputs& inputs) const {
     if (inputs.density != nullptr) {
         FieldBuffer::of(*inputs.density).values.bindTexels(shared::kDensityUnit);
     }
+    if (inputs.psiTable != nullptr) inputs.psiTable->bindTexels(shading::shared::kPsiTableUnit);
     heads_.bind(shared::kEntryUnit);
     if (nodes_.valid()) nodes_.bindTexels(shared::kEntryNodeUnit);
     counts_.bindStorage(shared::kCountStorage);

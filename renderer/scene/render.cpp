@@ -12,6 +12,7 @@
 #include "renderer/scene/scene_diff.h"
 #include "renderer/scene/validate.h"
 #include "renderer/scene/view.h"
+#include "renderer/shading/psi_table.h"
 
 namespace volcast::scene {
 namespace {
@@ -101,6 +102,7 @@ private:
     [[nodiscard]] Work workFor(const Frame& frame) const;
     Result<void> prepare(Frame& frame);
     Result<void> prepareLayer(Frame& frame, LayerDraw& draw);
+    Result<void> preparePsiTable();
     Result<void> sendBlocks(Frame& frame);
     Result<void> drawLayers(const Frame& frame);
     Result<void> drawLayer(const Frame& frame, const LayerDraw& draw);
@@ -112,6 +114,7 @@ private:
     gpu::Device& device_;
     shading::ProgramCache programs_;
     bool filterInHardware_ = false;
+    gpu::Buffer psiTable_;  // Made when first asked for.
     std::map<std::string, std::unique_ptr<CachedDataset>> datasets_;
     std::map<std::uint64_t, View> views_;
     std::uint64_t generation_ = 0;
@@ -279,6 +282,9 @@ Result<void> DeviceRenderer::prepareLayer(Frame& frame, LayerDraw& draw) {
     const auto part = draw.dataset->part(device_, *draw.layer, frame_);
     if (!part) return part.error();
     draw.part = *part;
+    if (draw.plan->method == Integrator::kPsiTable) {
+        if (auto made = preparePsiTable(); !made) return made;
+    }
     if (!needsField(*draw.layer)) return {};
     const FieldUse use = mainField(*draw.layer, draw.dataset->summary());
     const auto field = draw.dataset->field(device_, *draw.layer, **part, use, frame_);
@@ -289,6 +295,18 @@ Result<void> DeviceRenderer::prepareLayer(Frame& frame, LayerDraw& draw) {
     const auto density = draw.dataset->field(device_, *draw.layer, **part, *second, frame_);
     if (!density) return density.error();
     draw.density = *density;
+    return {};
+}
+
+Result<void> DeviceRenderer::preparePsiTable() {
+    if (psiTable_.valid()) return {};
+    const std::vector<float> table = shading::makePsiTable();
+    const auto bytes = std::as_bytes(std::span{table});
+    auto made = gpu::Buffer::create(
+        device_, {.bytes = bytes.size(), .texels = gpu::TexelFormat::kR32F, .label = "psi table"},
+        bytes);
+    if (!made) return made.error();
+    psiTable_ = std::move(*made);
     return {};
 }
 
@@ -353,6 +371,7 @@ Result<void> DeviceRenderer::drawLayer(const Frame& frame, const LayerDraw& draw
         .cameraVersion = frame.cameraVersion,
         .constants = draw.constants,
         .clipPlanes = static_cast<int>(frame.scene->clipPlanes.size()),
+        .psiTable = draw.plan->method == Integrator::kPsiTable ? &psiTable_ : nullptr,
         .target = isOpaque(draw) ? &frame.picture->opaquePass : &frame.picture->transparentPass};
     return draw.plan->evaluator == plan::Evaluator::kMeshRaster
                ? mesh::drawSurface(inputs)

@@ -13,3 +13,4 @@ const int kOpaqueDistanceUnit = 1;
 const int kVoxelUnit = 2;
 const int kBrickUnit = 3;
 const int kFirstMeshUnit = 4;
+const int kPsiTableUnit = 12;
