@@ -11,6 +11,13 @@ bool ordered(const data::Range& range) {
     return std::isfinite(range.min) && std::isfinite(range.max) && range.min < range.max;
 }
 
+/// The lower end of a range that is small beside its distance from 0, else 0.
+double farOffset(const data::Range& range) {
+    constexpr double kFar = 4.0;
+    const double low = range.min, high = range.max;
+    return std::max(std::abs(low), std::abs(high)) > kFar * (high - low) ? low : 0.0;
+}
+
 Error bad(const std::string& field, const std::string& why) {
     return fail(ErrorCode::kInvalidArgument, field + ": " + why, field);
 }
@@ -21,7 +28,9 @@ ScaleFunction::ScaleFunction(const Scale& scale, const data::Range& range)
     : kind_{scale.kind},
       exponent_{scale.exponent},
       domain_{scale.domain.value_or(range)},
-      identity_{scale.kind == Scale::Kind::kLinear && !scale.domain.has_value()} {}
+      offset_{scale.kind == Scale::Kind::kLinear ? farOffset(domain_) : 0.0},
+      identity_{scale.kind == Scale::Kind::kLinear && !scale.domain.has_value() && offset_ == 0.0} {
+}
 
 float ScaleFunction::ofData(float value) const {
     if (identity_) return value;
@@ -30,7 +39,7 @@ float ScaleFunction::ofData(float value) const {
 
 float ScaleFunction::ofPoint(float value) const {
     switch (kind_) {
-        case Scale::Kind::kLinear: return value;
+        case Scale::Kind::kLinear: return static_cast<float>(static_cast<double>(value) - offset_);
         case Scale::Kind::kLog: return static_cast<float>(std::log(static_cast<double>(value)));
         case Scale::Kind::kPower: break;
     }

@@ -9,8 +9,10 @@ namespace volcast::scene {
 
 /// A scale over a known domain: what turns values into those that rays interpolate.
 ///
-/// kLinear is the identity (within the domain), kLog is log(v), kPower ((v - min)/(max - min))^p.
-/// Monotone; computed in double, rounded once to float32.
+/// kLinear is v, kLog is log(v), kPower ((v - min)/(max - min))^p; values far from 0 beside the
+/// width of their domain are taken relative to its lower end, as coordinates are relative to an
+/// origin: float32 keeps 6e-8 of the number, not of the range. Monotone; computed in double,
+/// rounded once.
 class ScaleFunction {
 public:
     /// `range` is the field's, for a scale without a domain.
@@ -28,6 +30,7 @@ private:
     Scale::Kind kind_;
     double exponent_;
     data::Range domain_;
+    double offset_;  ///< Taken off kLinear values.
     bool identity_;
 };
 
