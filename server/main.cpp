@@ -1,6 +1,7 @@
 // The `volcast` program: picks the command.
 #include <CLI/CLI.hpp>
 
+#include "server/commands/accuracy_command.h"
 #include "server/commands/doctor_command.h"
 #include "server/commands/import_command.h"
 #include "server/commands/render_command.h"
@@ -13,6 +14,7 @@ int main(int argc, char** argv) {  // NOLINT(bugprone-exception-escape): our bug
     int exitCode = 0;
     volcast::commands::addServeCommand(app, exitCode);
     volcast::commands::addRenderCommand(app, exitCode);
+    volcast::commands::addAccuracyCommand(app, exitCode);
     volcast::commands::addImportCommand(app, exitCode);
     volcast::commands::addDoctorCommand(app, exitCode);
     try {

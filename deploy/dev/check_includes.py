@@ -14,10 +14,12 @@ SCENE_MODEL = ["renderer/scene/camera", "renderer/scene/default_scene", "rendere
 BASE = ["renderer/base"]
 MODEL = BASE + ["renderer/data", *SCENE_MODEL]
 DRAWING = MODEL + ["renderer/plan", "renderer/gpu", "renderer/shading"]
+MEASUREMENT = "renderer/accuracy/measurement"  # Plain structs, for the server too.
 # Both ends of the channel between server and worker; no GL.
 MESSAGES = [f"renderer/worker/{part}" for part in
-            ("channel", "exit_codes", "frame_message", "scene_json", "scene_message", "slot_layout")]
-WORKERS = MODEL + MESSAGES + ["renderer/plan", "server/workers"]
+            ("channel", "exit_codes", "frame_message", "measure_message", "scene_json",
+             "scene_message", "slot_layout")]
+WORKERS = MODEL + MESSAGES + ["renderer/plan", MEASUREMENT, "server/workers"]
 SESSION = WORKERS + ["protocol", "server/video", "server/session", "server/settings"]
 
 ALLOWED = {
@@ -33,14 +35,16 @@ ALLOWED = {
     "renderer/volume": DRAWING + ["renderer/volume", "shaders/shared"],
     "renderer/scene": DRAWING + ["renderer/mesh", "renderer/volume", "renderer/scene",
                                  "shaders/shared"],
-    **{part: MODEL + ["renderer/plan", *MESSAGES] for part in MESSAGES},
+    **{part: MODEL + ["renderer/plan", MEASUREMENT, *MESSAGES] for part in MESSAGES},
+    "renderer/accuracy": DRAWING + ["renderer/reference", "renderer/accuracy", "renderer/scene"],
+    MEASUREMENT: MODEL + ["renderer/plan", MEASUREMENT],
     "renderer/worker": ["renderer", "shaders/shared"],
     "protocol": BASE + ["protocol"],
     "server/video": BASE + ["server/video"],
     "server/workers": WORKERS,
     "server/session": SESSION,
     "server/net": SESSION + ["server/net"],
-    "server/commands": MODEL + MESSAGES + ["renderer/plan", "protocol", "server"],
+    "server/commands": MODEL + MESSAGES + ["renderer/plan", MEASUREMENT, "protocol", "server"],
     "server/settings": BASE + ["server"],
     "server/main": ["server/commands"],
     "server/import": BASE + ["renderer/data", "renderer/worker/channel", "server/import"],

@@ -91,6 +91,10 @@ public:
             id, std::make_unique<CachedDataset>(std::move(dataset), ++generation_));
     }
     void removeDataset(const std::string& id) override { datasets_.erase(id); }
+    [[nodiscard]] const data::Dataset* dataset(const std::string& id) const override {
+        const auto found = datasets_.find(id);
+        return found == datasets_.end() ? nullptr : &found->second->data();
+    }
     void dropView(std::uint64_t view) override { views_.erase(view); }
     [[nodiscard]] const Counters& counters() const noexcept override { return counters_; }
 

@@ -61,6 +61,8 @@ public:
     /// scene needs it.
     virtual void addDataset(const std::string& id, data::Dataset dataset) = 0;
     virtual void removeDataset(const std::string& id) = 0;
+    /// Null for one that is not there; good until it is replaced or removed.
+    [[nodiscard]] virtual const data::Dataset* dataset(const std::string& id) const = 0;
 
     /// Draws `scene` for `view` at `size` and fills `target`; only what differs from the view's
     /// last scene is uploaded, compiled and drawn.

@@ -11,13 +11,6 @@ constexpr std::array kEvaluators{plan::Evaluator::kMeshWalk, plan::Evaluator::kM
                                  plan::Evaluator::kMeshProjectionFaces,
                                  plan::Evaluator::kMeshRaster, plan::Evaluator::kVolumeMarch};
 
-plan::Evaluator evaluatorFrom(std::string_view text) {
-    for (const plan::Evaluator evaluator : kEvaluators) {
-        if (text == name(evaluator)) return evaluator;
-    }
-    return plan::Evaluator::kMeshWalk;  // Both ends are of one build: never reached.
-}
-
 }  // namespace
 
 const char* name(plan::Evaluator evaluator) noexcept {
@@ -29,6 +22,13 @@ const char* name(plan::Evaluator evaluator) noexcept {
         case plan::Evaluator::kVolumeMarch: return "volume march";
     }
     return "";
+}
+
+plan::Evaluator evaluatorNamed(std::string_view text) {
+    for (const plan::Evaluator evaluator : kEvaluators) {
+        if (text == name(evaluator)) return evaluator;
+    }
+    return plan::Evaluator::kMeshWalk;  // Both ends are of one build: never reached.
 }
 
 void put(const plan::FramePlan& plan, internal::v1::Rendered* message) {
@@ -55,7 +55,7 @@ plan::FramePlan planFrom(const internal::v1::Rendered& message) {
     for (const internal::v1::LayerPlan& layer : message.layers()) {
         plan::LayerPlan& added = plan.layers.emplace_back();
         added.layer = layer.layer();
-        added.evaluator = evaluatorFrom(layer.evaluator());
+        added.evaluator = evaluatorNamed(layer.evaluator());
         added.integrator = layer.integrator();
         added.drawn = layer.drawn();
         added.drawnWith = layer.drawn_with();

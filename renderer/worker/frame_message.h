@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string_view>
+
 #include "renderer/base/result.h"
 #include "renderer/plan/plan.h"
 #include "volcast/internal/v1/worker.pb.h"
@@ -12,6 +14,8 @@ plan::FramePlan planFrom(const internal::v1::Rendered& message);
 
 /// Names of the evaluators: "mesh walk", "mesh raster", "volume march".
 const char* name(plan::Evaluator evaluator) noexcept;
+/// The one with that name; both ends are of one build, so that there is one.
+plan::Evaluator evaluatorNamed(std::string_view name);
 
 internal::v1::Failed toMessage(const Error& error);
 /// An unknown code becomes kUnsupported.

@@ -10,6 +10,7 @@
 #include "renderer/data/packed_dataset.h"
 #include "renderer/scene/validate.h"
 #include "renderer/worker/frame_message.h"
+#include "renderer/worker/measure_message.h"
 #include "renderer/worker/scene_message.h"
 #include "renderer/worker/warm_up.h"
 
@@ -80,6 +81,7 @@ Result<void> Loop::handle(const wire::ToWorker& message, const Descriptors& desc
             return addDataset(message.add_dataset().id(), descriptors);
         }
         case wire::ToWorker::kRemoveDataset: {
+            meter_.forget(message.remove_dataset().id());
             renderer_.removeDataset(message.remove_dataset().id());
             return {};
         }
@@ -94,6 +96,7 @@ Result<void> Loop::handle(const wire::ToWorker& message, const Descriptors& desc
             return reply(answer);
         }
         case wire::ToWorker::kWarmUp: return warmUp(message.warm_up().step());
+        case wire::ToWorker::kMeasure: return measure(message.measure());
         case wire::ToWorker::BODY_NOT_SET: break;
     }
     return fail(ErrorCode::kInvalidArgument, "the server sent a message of an unknown kind");
@@ -104,6 +107,7 @@ Result<void> Loop::addDataset(const std::string& id, const Descriptors& descript
     const auto start = Clock::now();
     wire::FromWorker answer;
     if (auto dataset = data::unpack(descriptors.front()); dataset) {
+        meter_.forget(id);
         renderer_.addDataset(id, *std::move(dataset));
         answer.mutable_dataset_added()->set_id(id);
         answer.mutable_dataset_added()->set_ms(millisecondsSince(start));
@@ -169,22 +173,50 @@ Result<void> Loop::render(const wire::Render& request, const Descriptors& descri
     if (descriptors.size() != expected) {
         return oneDescriptorExpected("a new frame slot", descriptors.size());
     }
-    wire::FromWorker answer;
     auto rendered = draw(request, descriptors);
-    const bool reset = device_.resetStatus() != gpu::ResetStatus::kNone;
-    if (reset || (!rendered && rendered.error().code == ErrorCode::kDeviceLost)) {
+    if (Result<void> alive = checkDevice(); !alive) return alive;
+    if (!rendered) {
+        wire::Failed failed;
+        failed.set_request(request.request());
+        failed.set_view(request.view());
+        return refuse(rendered.error(), std::move(failed));
+    }
+    wire::FromWorker answer;
+    *answer.mutable_rendered() = *std::move(rendered);
+    return reply(answer);
+}
+
+Result<void> Loop::measure(const wire::Measure& request) {
+    const auto job = jobFrom(request);
+    const auto measured = job ? meter_.measure(*job) : Result<accuracy::Measurement>{job.error()};
+    if (Result<void> alive = checkDevice(); !alive) return alive;
+    if (!measured) {
+        wire::Failed failed;
+        failed.set_request(request.request());
+        return refuse(measured.error(), std::move(failed));
+    }
+    wire::FromWorker answer;
+    *answer.mutable_measured() = toMessage(*measured);
+    answer.mutable_measured()->set_request(request.request());
+    return reply(answer);
+}
+
+Result<void> Loop::checkDevice() {
+    if (device_.resetStatus() == gpu::ResetStatus::kNone) return {};
+    deviceLost_ = true;
+    device_.abandon();
+    return fail(ErrorCode::kDeviceLost, "the GPU was reset while drawing");
+}
+
+Result<void> Loop::refuse(const Error& error, wire::Failed failed) {
+    if (error.code == ErrorCode::kDeviceLost) {
         deviceLost_ = true;
         device_.abandon();
-        return fail(ErrorCode::kDeviceLost,
-                    reset ? "the GPU was reset while drawing" : rendered.error().message);
+        return error;
     }
-    if (rendered) {
-        *answer.mutable_rendered() = *std::move(rendered);
-    } else {
-        *answer.mutable_failed() = toMessage(rendered.error());
-        answer.mutable_failed()->set_request(request.request());
-        answer.mutable_failed()->set_view(request.view());
-    }
+    wire::FromWorker answer;
+    failed.MergeFrom(toMessage(error));
+    *answer.mutable_failed() = std::move(failed);
     return reply(answer);
 }
 

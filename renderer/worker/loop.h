@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "renderer/accuracy/meter.h"
 #include "renderer/gpu/device.h"
 #include "renderer/scene/render.h"
 #include "renderer/worker/channel.h"
@@ -17,7 +18,7 @@ namespace volcast::worker {
 class Loop {
 public:
     Loop(Channel& channel, gpu::Device& device, scene::Renderer& renderer) noexcept
-        : channel_{channel}, device_{device}, renderer_{renderer} {}
+        : channel_{channel}, device_{device}, renderer_{renderer}, meter_{renderer} {}
 
     /// Until the server closes the channel or the device is lost.
     ExitCode run();
@@ -33,11 +34,17 @@ private:
     /// Errors are the request's own, but for kDeviceLost.
     Result<internal::v1::Rendered> draw(const internal::v1::Render& request,
                                         const Descriptors& descriptors);
+    Result<void> measure(const internal::v1::Measure& request);
+    /// Answers with `failed`; kDeviceLost where the device is lost, by `error` or by itself.
+    Result<void> refuse(const Error& error, internal::v1::Failed failed);
+    /// kDeviceLost where the GPU was reset.
+    Result<void> checkDevice();
     Result<void> reply(const internal::v1::FromWorker& message);
 
     Channel& channel_;
     gpu::Device& device_;
     scene::Renderer& renderer_;
+    accuracy::Meter meter_;
     Slots slots_;
     bool deviceLost_ = false;
 };

@@ -493,4 +493,20 @@ v1::RayModel toMessage(scene::RayModel model) {
     return theirsFrom(kModels, model);
 }
 
+v1::Integrator toMessage(scene::Integrator integrator) {
+    return theirsFrom(kIntegrators, integrator);
+}
+
+v1::MeshEvaluator toMessage(scene::MeshEvaluator evaluator) {
+    return theirsFrom(kEvaluators, evaluator);
+}
+
+Result<scene::Integrator> integratorFrom(v1::Integrator message) {
+    return oursFrom(kIntegrators, message, "integrator");
+}
+
+Result<scene::MeshEvaluator> meshEvaluatorFrom(v1::MeshEvaluator message) {
+    return oursFrom(kEvaluators, message, "evaluator");
+}
+
 }  // namespace volcast::worker

@@ -14,5 +14,10 @@ Result<scene::Camera> cameraFrom(const v1::Camera& message, const std::string& p
 
 v1::Scene toMessage(const scene::Scene& scene);
 v1::RayModel toMessage(scene::RayModel model);
+v1::Integrator toMessage(scene::Integrator integrator);
+v1::MeshEvaluator toMessage(scene::MeshEvaluator evaluator);
+/// Errors: kUnsupported for an enumerator this build does not know.
+Result<scene::Integrator> integratorFrom(v1::Integrator message);
+Result<scene::MeshEvaluator> meshEvaluatorFrom(v1::MeshEvaluator message);
 
 }  // namespace volcast::worker

@@ -7,35 +7,51 @@
 
 namespace volcast::commands {
 
-/// What the service's thread says, for the thread that waits.
+namespace {
+
+/// What one thread says, for one that waits.
+template <class T>
+class Handover {
+public:
+    void set(T value) {
+        const std::scoped_lock lock{mutex_};
+        value_ = std::move(value);
+        came_.notify_all();
+    }
+
+    T take() {
+        std::unique_lock lock{mutex_};
+        came_.wait(lock, [this] { return value_.has_value(); });
+        return *std::exchange(value_, std::nullopt);
+    }
+
+private:
+    std::mutex mutex_;
+    std::condition_variable came_;
+    std::optional<T> value_;
+};
+
+}  // namespace
+
 struct OfflineRenderer::Outcome {
-    std::mutex mutex;
-    std::condition_variable came;
-    std::optional<Result<workers::RenderedFrame>> result;
-
-    void set(Result<workers::RenderedFrame> value) {
-        const std::scoped_lock lock{mutex};
-        result = std::move(value);
-        came.notify_all();
-    }
-
-    Result<workers::RenderedFrame> take() {
-        std::unique_lock lock{mutex};
-        came.wait(lock, [this] { return result.has_value(); });
-        return *std::exchange(result, std::nullopt);
-    }
+    Handover<Result<workers::RenderedFrame>> frame;
+    Handover<Result<accuracy::Measurement>> measurement;
 };
 
 Result<OfflineRenderer> OfflineRenderer::create(const workers::RenderSettings& settings) {
     OfflineRenderer renderer;
     renderer.outcome_ = std::make_shared<Outcome>();
     auto service = workers::RenderService::create(
-        settings,
-        {.rendered = [outcome = renderer.outcome_](
-                         workers::RenderedFrame frame) { outcome->set(std::move(frame)); },
-         .failed = [outcome = renderer.outcome_](std::uint64_t, std::uint64_t,
-                                                 Error error) { outcome->set(std::move(error)); },
-         .recovering = {}});
+        settings, {.rendered = [outcome = renderer.outcome_](
+                                   workers::RenderedFrame frame) { outcome->frame.set(frame); },
+                   .failed = [outcome = renderer.outcome_](
+                                 std::uint64_t, std::uint64_t,
+                                 Error error) { outcome->frame.set(std::move(error)); },
+                   .measured =
+                       [outcome = renderer.outcome_](std::uint64_t, std::uint64_t,
+                                                     Result<accuracy::Measurement> result) {
+                           outcome->measurement.set(std::move(result));
+                       }});
     if (!service) return std::move(service).error();
     renderer.service_ = *std::move(service);
     return renderer;
@@ -43,7 +59,12 @@ Result<OfflineRenderer> OfflineRenderer::create(const workers::RenderSettings& s
 
 Result<workers::RenderedFrame> OfflineRenderer::draw(workers::RenderRequest request) {
     service_->submit(std::move(request));
-    return outcome_->take();
+    return outcome_->frame.take();
+}
+
+Result<accuracy::Measurement> OfflineRenderer::measure(accuracy::Job job) {
+    service_->measure({.view = 1, .tag = 0, .job = std::move(job)});
+    return outcome_->measurement.take();
 }
 
 }  // namespace volcast::commands

@@ -6,7 +6,7 @@
 
 namespace volcast::commands {
 
-/// Draws one picture after the other, each waited for: a render service without mailboxes.
+/// Draws one request after the other, each waited for: a render service without mailboxes.
 class OfflineRenderer {
 public:
     /// Errors: as workers::RenderService::create.
@@ -15,6 +15,8 @@ public:
     [[nodiscard]] workers::RenderService& service() const { return *service_; }
     /// Errors: as the worker says, or kDeviceLost.
     Result<workers::RenderedFrame> draw(workers::RenderRequest request);
+    /// Errors: as accuracy::Meter::measure, or kDeviceLost.
+    Result<accuracy::Measurement> measure(accuracy::Job job);
 
 private:
     struct Outcome;

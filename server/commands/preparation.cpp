@@ -28,6 +28,7 @@ workers::RenderSettings settingsFor(const SceneOptions& options) {
     settings.cacheFolder = options.cacheFolder.empty() ? userCacheFolder() : options.cacheFolder;
     settings.frameDeadline = std::chrono::milliseconds{
         static_cast<std::int64_t>(std::max(1.0, options.timeoutSeconds * 1e3))};
+    settings.measureDeadline = settings.frameDeadline;
     settings.warmSpare = false;
     return settings;
 }

@@ -9,8 +9,6 @@
 
 #include <CLI/CLI.hpp>
 #include <boost/json.hpp>
-#include <spdlog/sinks/stdout_sinks.h>
-#include <spdlog/spdlog.h>
 
 #include "renderer/scene/ray_models.h"
 #include "renderer/worker/frame_message.h"
@@ -20,6 +18,7 @@
 #include "server/commands/preparation.h"
 #include "server/commands/render_options.h"
 #include "server/commands/render_scene.h"
+#include "server/commands/warnings_only.h"
 #include "server/video/encoder.h"
 
 namespace volcast::commands {
@@ -159,11 +158,7 @@ Result<void> draw(const RenderOptions& options) {
 }
 
 int run(const RenderOptions& options) {
-    auto log = std::make_shared<spdlog::logger>("volcast",
-                                                std::make_shared<spdlog::sinks::stderr_sink_mt>());
-    log->set_level(spdlog::level::warn);
-    log->set_pattern("volcast render: %v");
-    spdlog::set_default_logger(std::move(log));
+    logWarningsOnly("volcast render");
     const Result<void> done = draw(options);
     if (done) return 0;
     std::fprintf(stderr, "volcast render: %s\n", done.error().message.c_str());

@@ -5,7 +5,7 @@
 namespace volcast::commands {
 
 void addOptions(CLI::App& command, RenderOptions& o) {
-    addSceneOptions(command, o.scene);
+    addSceneOptions(command, o.scene, Choices::kOne);
     command.add_option("--png", o.png, "Picture in sRGB with straight alpha");
     command.add_option("--raw", o.raw,
                        "float32 little-endian RGBA, top row first, linear, premultiplied, without "

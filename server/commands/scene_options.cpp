@@ -97,11 +97,18 @@ void addScale(Group& group, const std::string& name, const std::string& of, Scal
                   "MIN MAX that the scale runs over; none: the field's range");
 }
 
-void addWhat(Group group, SceneOptions& o) {
+void addChoices(Group group, SceneOptions& o) {
     group
         .add("--model", o.model,
              "Ray model; max is mip, on and composite are volume; none: as the data suggests")
-        ->check(CLI::IsMember(modelNames()));
+        ->check(knownModel());
+    group.add("--integrator", o.integrator, "How a ray's share of a cell is integrated")
+        ->check(knownIntegrator());
+    group.add("--evaluator", o.evaluator, "What brings rays and cells of a mesh together")
+        ->check(knownEvaluator());
+}
+
+void addWhat(Group group, SceneOptions& o) {
     group.add("--field", o.field, "Field or channel by name; none: the first");
     group.add("--time-step", o.timeStep, "From 0")->check(CLI::NonNegativeNumber);
     group.add("--tf", o.map, "Transfer function: lines `value r g b sigma`");
@@ -148,10 +155,6 @@ void addModelOptions(Group group, SceneOptions& o) {
 }
 
 void addEvaluation(Group group, SceneOptions& o) {
-    group.add("--integrator", o.integrator, "How a ray's share of a cell is integrated")
-        ->check(CLI::IsMember(integratorNames()));
-    group.add("--evaluator", o.evaluator, "What brings rays and cells of a mesh together")
-        ->check(CLI::IsMember(evaluatorNames()));
     group.add("--step", o.step, "Sampling distance in voxels' world units; 0: half a voxel")
         ->check(finite() & CLI::NonNegativeNumber);
     group.add("--sampling", o.sampling, "trilinear or nearest")
@@ -201,6 +204,18 @@ void addHow(Group group, SceneOptions& o) {
 
 }  // namespace
 
+CLI::Validator knownModel() {
+    return CLI::IsMember(modelNames());
+}
+
+CLI::Validator knownIntegrator() {
+    return CLI::IsMember(integratorNames());
+}
+
+CLI::Validator knownEvaluator() {
+    return CLI::IsMember(evaluatorNames());
+}
+
 const CLI::Validator& finite() {
     static const CLI::Validator kFinite{checkFinite, "NUMBER", "finite"};
     return kFinite;
@@ -228,7 +243,7 @@ Result<scene::Accuracy> parseAccuracy(const std::string& text) {
                     "above 0");
 }
 
-void addSceneOptions(CLI::App& command, SceneOptions& o) {
+void addSceneOptions(CLI::App& command, SceneOptions& o, Choices choices) {
     command
         .add_option("dataset", o.dataset, "A file, a folder of pictures, demo:mesh or demo:volume")
         ->required();
@@ -237,6 +252,7 @@ void addSceneOptions(CLI::App& command, SceneOptions& o) {
                                         "are drawn from DATASET; without the options of layers");
     document->group("What is drawn");
     Options ofLayer;
+    if (choices == Choices::kOne) addChoices({command, "What is drawn", &ofLayer}, o);
     addWhat({command, "What is drawn", &ofLayer}, o);
     addModelOptions({command, "Ray models", &ofLayer}, o);
     addEvaluation({command, "How rays are evaluated", &ofLayer}, o);

@@ -57,8 +57,17 @@ struct SceneOptions {
     std::vector<double> spacing;
 };
 
-/// Registers every option above; wrong values are refused when the command line is read.
-void addSceneOptions(CLI::App& command, SceneOptions& options);
+/// Whether a command draws with one ray model, integrator and evaluator, or has a say of its own.
+enum class Choices { kOne, kOwn };
+
+/// Registers every option above (Choices::kOwn: but --model, --integrator and --evaluator); wrong
+/// values are refused when the command line is read.
+void addSceneOptions(CLI::App& command, SceneOptions& options, Choices choices);
+
+/// Whether a word is a name in the registry; ray models have some names more.
+CLI::Validator knownModel();
+CLI::Validator knownIntegrator();
+CLI::Validator knownEvaluator();
 
 /// "auto", "fastest", "exact", "error:X" (1/255) or "time:MS".
 ///

@@ -37,6 +37,11 @@ workers::RenderEvents ViewRouter::events() {
                 const ViewTarget target = find(view);
                 if (target.failed) target.failed(tag, std::move(error));
             },
+        .measured =
+            [this](std::uint64_t view, std::uint64_t tag, Result<accuracy::Measurement> result) {
+                const ViewTarget target = find(view);
+                if (target.measured) target.measured(tag, std::move(result));
+            },
         .recovering =
             [this](const std::vector<std::uint64_t>& views) {
                 for (const std::uint64_t view : views) {

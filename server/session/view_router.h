@@ -13,7 +13,8 @@ namespace volcast::session {
 struct ViewTarget {
     std::function<void(workers::RenderedFrame)> rendered;
     std::function<void(std::uint64_t tag, Error)> failed;
-    std::function<void()> recovering;
+    std::function<void(std::uint64_t tag, Result<accuracy::Measurement>)> measured = {};
+    std::function<void()> recovering = {};
 };
 
 /// Numbers views in the whole server and hands the render service's news to the right one.

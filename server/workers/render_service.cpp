@@ -74,10 +74,20 @@ public:
         wake();
     }
 
+    void measure(MeasureRequest request) override {
+        {
+            const std::scoped_lock lock{mutex_};
+            const std::uint64_t view = request.view;
+            inbox_.measures[view] = std::move(request);
+        }
+        wake();
+    }
+
     void dropView(std::uint64_t view) override {
         {
             const std::scoped_lock lock{mutex_};
             inbox_.requests.erase(view);
+            inbox_.measures.erase(view);
             inbox_.droppedViews.push_back(view);
         }
         wake();

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "renderer/accuracy/measurement.h"
 #include "renderer/base/file_descriptor.h"
 #include "renderer/base/result.h"
 #include "renderer/plan/plan.h"
@@ -27,6 +28,13 @@ struct RenderRequest {
     scene::Scene scene;
     scene::PictureSize size{512, 512};
     bool wantFloat = false;
+};
+
+/// One candidate of a picture to measure, in the name of a view.
+struct MeasureRequest {
+    std::uint64_t view = 0;
+    std::uint64_t tag = 0;  ///< Comes back with the result.
+    accuracy::Job job;
 };
 
 struct WorkDone {
@@ -53,6 +61,7 @@ struct RenderSettings {
     std::chrono::milliseconds frameDeadline{10'000};  ///< Upload, compile, link and draw together.
     std::chrono::milliseconds startDeadline{20'000};
     std::chrono::milliseconds datasetDeadline{120'000};  ///< To check and take over one dataset.
+    std::chrono::milliseconds measureDeadline{120'000};  ///< For the reference and all its frames.
     std::chrono::milliseconds heartbeatInterval{1'000};  ///< An idle worker is asked this often.
     std::chrono::milliseconds heartbeatDeadline{3'000};  ///< And has this long to answer.
     bool warmSpare = true;
@@ -71,11 +80,14 @@ struct RenderStatus {
 
 /// Calls back on the service's own thread; must return soon and may call the service.
 struct RenderEvents {
-    std::function<void(RenderedFrame)> rendered;
+    std::function<void(RenderedFrame)> rendered = {};
     /// The request was refused or failed; the view keeps its last good picture.
-    std::function<void(std::uint64_t view, std::uint64_t tag, Error)> failed;
+    std::function<void(std::uint64_t view, std::uint64_t tag, Error)> failed = {};
+    /// What was asked of measure(). kDeviceLost where the worker was lost meanwhile.
+    std::function<void(std::uint64_t view, std::uint64_t tag, Result<accuracy::Measurement>)>
+        measured = {};
     /// The worker of these views was lost; their last requests are drawn again by themselves.
-    std::function<void(std::vector<std::uint64_t> views)> recovering;
+    std::function<void(std::vector<std::uint64_t> views)> recovering = {};
 };
 
 /// Draws pictures in `volcast-worker` processes and replaces them when they exit, are killed,
@@ -103,6 +115,9 @@ public:
     virtual void addDataset(const std::string& id, base::FileDescriptor packed) = 0;
     virtual void removeDataset(const std::string& id) = 0;
     virtual void submit(RenderRequest request) = 0;
+    /// Measured when no view waits for a picture, one after the other; replaces the view's request
+    /// that has not begun. dropView() takes it back.
+    virtual void measure(MeasureRequest request) = 0;
     virtual void dropView(std::uint64_t view) = 0;
     [[nodiscard]] virtual RenderStatus status() const = 0;
 

@@ -10,6 +10,7 @@
 
 #include "renderer/worker/exit_codes.h"
 #include "renderer/worker/frame_message.h"
+#include "renderer/worker/measure_message.h"
 
 namespace volcast::workers {
 
@@ -116,11 +117,13 @@ void Supervisor::accept(Inbox& inbox) {
     for (const Inbox::DatasetChange& dataset : inbox.datasets) change(dataset);
     for (const std::uint64_t view : inbox.droppedViews) {
         views_.drop(view);
+        measures_.erase(view);
         if (main_) main_->dropView(view);
     }
     for (auto& [view, timed] : inbox.requests) {
         views_.submit(std::move(timed.request), timed.submitted);
     }
+    for (auto& [view, request] : inbox.measures) measures_[view] = std::move(request);
 }
 
 void Supervisor::change(const Inbox::DatasetChange& change) {
@@ -169,6 +172,10 @@ void Supervisor::handle(Worker& worker, const WorkerProcess::Answer& answer) {
     }
     if (answer.has_failed()) return refuse(answer.failed());
     if (answer.has_rendered()) return finish(answer.rendered());
+    if (answer.has_measured()) {
+        return finishMeasure(answer.measured().request(),
+                             worker::measurementFrom(answer.measured()));
+    }
     // One step at a time, so that a spare that is needed now draws soon.
     if (answer.has_warmed_up() && answer.warmed_up().more() && &worker == &spare_) {
         worker->warmUp(answer.warmed_up().step() + 1, settings_.startDeadline);
@@ -227,6 +234,7 @@ void Supervisor::refuse(const internal::v1::Failed& failed) {
         spdlog::error("dataset {}: {}", failed.dataset(), error.message);
         return;
     }
+    if (measuring_) return finishMeasure(failed.request(), error);
     if (!inFlight_ || failed.request() != inFlight_->number) {
         return lose(main_, "refused a picture nobody asked for");
     }
@@ -236,9 +244,9 @@ void Supervisor::refuse(const internal::v1::Failed& failed) {
 }
 
 void Supervisor::dispatch() {
-    while (main_ && main_->ready() && !inFlight_) {
+    while (main_ && main_->ready() && !inFlight_ && !measuring_) {
         auto next = views_.next();
-        if (!next) return;
+        if (!next) return dispatchMeasure();
         const RenderRequest& request = next->request;
         auto asked = main_->render(nextNumber_, request, settings_.frameDeadline);
         if (!asked) {
@@ -251,6 +259,25 @@ void Supervisor::dispatch() {
         ++nextNumber_;
         static_cast<void>(main_->flush());  // serve() notices a closed channel.
     }
+}
+
+void Supervisor::dispatchMeasure() {
+    if (measures_.empty()) return;
+    auto node = measures_.extract(measures_.begin());
+    MeasureRequest request = std::move(node.mapped());
+    auto asked = main_->measure(nextNumber_, request.job, settings_.measureDeadline);
+    measuring_ = {.request = std::move(request), .number = nextNumber_};
+    if (!asked) return finishMeasure(nextNumber_++, asked.error());
+    ++nextNumber_;
+    static_cast<void>(main_->flush());
+}
+
+void Supervisor::finishMeasure(std::uint64_t number, const Result<accuracy::Measurement>& result) {
+    if (!measuring_ || number != measuring_->number) {
+        return lose(main_, "measured what nobody asked for");
+    }
+    const Measuring done = *std::exchange(measuring_, std::nullopt);
+    if (events_.measured) events_.measured(done.request.view, done.request.tag, result);
 }
 
 void Supervisor::checkTimes() {
@@ -325,6 +352,10 @@ void Supervisor::lose(Worker& worker, const std::string& reason) {
 
 void Supervisor::loseMain() {
     ++generation_;
+    if (measuring_) {
+        finishMeasure(measuring_->number,
+                      fail(ErrorCode::kDeviceLost, "the GL worker was lost: " + lastLoss_));
+    }
     auto inFlight = std::exchange(inFlight_, std::nullopt);
     std::optional<RenderRequest> request;
     if (inFlight) request = std::move(inFlight->request);

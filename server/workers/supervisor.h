@@ -21,7 +21,8 @@ struct Inbox {
     };
     std::vector<DatasetChange> datasets;
     std::vector<std::uint64_t> droppedViews;
-    std::map<std::uint64_t, TimedRequest> requests;  ///< Newest of each view.
+    std::map<std::uint64_t, TimedRequest> requests;    ///< Newest of each view.
+    std::map<std::uint64_t, MeasureRequest> measures;  ///< Newest of each view.
     bool stop = false;
 };
 
@@ -55,6 +56,11 @@ private:
         double waitMs = 0.0;
     };
 
+    struct Measuring {
+        MeasureRequest request;
+        std::uint64_t number = 0;
+    };
+
     void wait();
     void accept(Inbox& inbox);  ///< Empties it.
     void change(const Inbox::DatasetChange& change);
@@ -63,6 +69,8 @@ private:
     void finish(const internal::v1::Rendered& rendered);
     void refuse(const internal::v1::Failed& failed);
     void dispatch();
+    void dispatchMeasure();
+    void finishMeasure(std::uint64_t number, const Result<accuracy::Measurement>& result);
     void checkTimes();
     void startWorkers();
     void start(Worker& worker);
@@ -86,6 +94,8 @@ private:
     std::map<std::string, SharedDescriptor> datasets_;
     ViewQueue views_;
     std::optional<InFlight> inFlight_;
+    std::map<std::uint64_t, MeasureRequest> measures_;  ///< That wait, by view.
+    std::optional<Measuring> measuring_;                ///< Never beside inFlight_.
     std::uint64_t nextNumber_ = 1;
 
     BackOff backOff_;

@@ -3,6 +3,7 @@
 #include <new>
 #include <utility>
 
+#include "renderer/worker/measure_message.h"
 #include "renderer/worker/scene_message.h"
 
 namespace volcast::workers {
@@ -34,6 +35,14 @@ SpawnDesc spawnDesc(const RenderSettings& settings, const std::string& cacheFold
     }
     desc.channel = channel;
     return desc;
+}
+
+Result<void> checkSize(const WorkerProcess::Message& message) {
+    const std::size_t size = message.ByteSizeLong();
+    if (size <= worker::kMaxChannelMessage) return {};
+    return fail(ErrorCode::kLimitExceeded,
+                "the scene takes " + std::to_string(size) + " bytes, at most " +
+                    std::to_string(worker::kMaxChannelMessage) + " are allowed");
 }
 
 /// A slot far larger than its pictures is given back.
@@ -120,16 +129,23 @@ Result<void> WorkerProcess::render(std::uint64_t number, const RenderRequest& re
     render.set_slot(slot_);
     render.set_want_float(request.wantFloat);
     render.set_new_slot(true);
-    if (const std::size_t size = message.ByteSizeLong(); size > worker::kMaxChannelMessage) {
-        return fail(ErrorCode::kLimitExceeded,
-                    "the scene takes " + std::to_string(size) + " bytes, at most " +
-                        std::to_string(worker::kMaxChannelMessage) + " are allowed");
-    }
+    if (auto fits = checkSize(message); !fits) return fits;
     auto memory = prepareSlot(worker::slotBytes(request.size, request.wantFloat));
     if (!memory) return std::move(memory).error();
     render.set_new_slot(*memory != nullptr);
     outbox_.push_back({.message = std::move(message), .descriptor = *std::move(memory)});
     owe(Owed::kFrame, limit);
+    return {};
+}
+
+Result<void> WorkerProcess::measure(std::uint64_t number, const accuracy::Job& job,
+                                    milliseconds limit) {
+    Message message;
+    *message.mutable_measure() = worker::toMessage(job);
+    message.mutable_measure()->set_request(number);
+    if (auto fits = checkSize(message); !fits) return fits;
+    outbox_.push_back({.message = std::move(message), .descriptor = nullptr});
+    owe(Owed::kMeasure, limit);
     return {};
 }
 
@@ -155,6 +171,7 @@ Result<void> WorkerProcess::settle(const Answer& answer) {
         case Answer::kRendered: expected = owed == Owed::kFrame; break;
         case Answer::kPong: expected = owed == Owed::kPong; break;
         case Answer::kWarmedUp: expected = owed == Owed::kWarmUp; break;
+        case Answer::kMeasured: expected = owed == Owed::kMeasure; break;
         case Answer::kFailed: expected = owed && owed != Owed::kPong; break;
         case Answer::BODY_NOT_SET: break;
     }
@@ -214,6 +231,7 @@ std::string WorkerProcess::deadlineMissed() const {
         case Owed::kDataset: return "missed its deadline of " + limit + " for a dataset";
         case Owed::kFrame: return "missed its deadline of " + limit + " for a frame";
         case Owed::kPong: return "gave no sign of life for " + limit;
+        case Owed::kMeasure: return "missed its deadline of " + limit + " for a measurement";
         case Owed::kWarmUp: return "missed its deadline of " + limit + " for building shaders";
     }
     return {};

@@ -44,6 +44,9 @@ public:
     /// Errors: kLimitExceeded (the scene is too large for the channel), kIo (no memory).
     Result<void> render(std::uint64_t number, const RenderRequest& request,
                         std::chrono::milliseconds limit);
+    /// Errors: kLimitExceeded (the scene is too large for the channel).
+    Result<void> measure(std::uint64_t number, const accuracy::Job& job,
+                         std::chrono::milliseconds limit);
 
     /// Errors: the channel is closed or broken.
     Result<void> flush();
@@ -78,7 +81,7 @@ public:
     [[nodiscard]] std::optional<ExitStatus> tryReap() noexcept { return child_.tryReap(); }
 
 private:
-    enum class Owed { kReady, kDataset, kFrame, kPong, kWarmUp };
+    enum class Owed { kReady, kDataset, kFrame, kPong, kWarmUp, kMeasure };
     struct Debt {
         Owed what;
         std::chrono::milliseconds limit;

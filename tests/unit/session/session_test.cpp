@@ -18,9 +18,13 @@ public:
     void addDataset(const std::string&, base::FileDescriptor) override {}
     void removeDataset(const std::string&) override {}
     void submit(workers::RenderRequest request) override { requests.push_back(std::move(request)); }
+    void measure(workers::MeasureRequest request) override {
+        measures.push_back(std::move(request));
+    }
     void dropView(std::uint64_t view) override { dropped.push_back(view); }
     [[nodiscard]] workers::RenderStatus status() const override { return {}; }
     std::vector<workers::RenderRequest> requests;
+    std::vector<workers::MeasureRequest> measures;
     std::vector<std::uint64_t> dropped;
 };
 

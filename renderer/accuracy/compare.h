@@ -1,0 +1,20 @@
+#pragma once
+
+#include <span>
+
+#include "renderer/accuracy/measurement.h"
+#include "renderer/reference/reference.h"
+
+namespace volcast::accuracy {
+
+struct Difference {
+    Errors all;
+    Errors inner;  ///< Without the pixels that `truth` has as near an edge.
+};
+
+/// Compares `pixels` of a picture with the truth. `rgba`: linear, premultiplied, 4 a pixel, all of
+/// a picture `width` pixels wide, rows from the top. A value that is no number is infinitely off.
+Difference compare(const reference::Picture& truth, std::span<const glm::ivec2> pixels,
+                   std::span<const float> rgba, int width);
+
+}  // namespace volcast::accuracy

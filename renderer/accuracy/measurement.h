@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "renderer/plan/plan.h"
+#include "renderer/scene/scene.h"
+
+namespace volcast::accuracy {
+
+/// How far pixels are from the truth, in linear light, premultiplied, over red, green, blue and
+/// opacity; 1 is the display's white. Values above it count as they are.
+struct Errors {
+    double max = 0.0;  ///< Of any channel of any pixel.
+    double rms = 0.0;  ///< Over all channels of all pixels.
+    double share255 =
+        0.0;  ///< Of pixels, in [0, 1], one of whose channels is off by more than 1/255.
+    double share65535 = 0.0;   ///< The same by more than 1/65535.
+    std::uint64_t pixels = 0;  ///< That were compared.
+};
+
+/// One way to draw one layer.
+struct Candidate {
+    std::size_t layer = 0;  ///< Index in the scene.
+    scene::Integrator integrator = scene::Integrator::kAuto;
+    scene::MeshEvaluator evaluator = scene::MeshEvaluator::kAuto;
+    friend bool operator==(const Candidate&, const Candidate&) = default;
+};
+
+/// What is to be measured.
+struct Job {
+    scene::Scene scene;
+    scene::PictureSize size{512};
+    Candidate candidate;
+    int frames = 0;            ///< Draws to time, after one that warms up; 0: errors alone.
+    std::uint64_t pixels = 0;  ///< To compare, spread over the picture; 0: all.
+};
+
+/// What drawing a scene with one candidate is worth, and what it costs.
+struct Measurement {
+    Errors all;
+    Errors inner;  ///< Without pixels near a silhouette, where rounding may decide what is hit.
+    double medianMs = 0.0, minMs = 0.0, maxMs = 0.0;  ///< Of one draw at full size.
+    int frames = 0;
+    double cellsPerRay = 0.0;  ///< Mean over the compared pixels; how many cells a ray meets.
+    plan::Evaluator evaluator = plan::Evaluator::kMeshWalk;  ///< What drew the layer.
+    std::string integrator;                                  ///< As in plans.
+};
+
+/// All ways that the registry has for the visible layers of `scene`, in its order: integrators from
+/// cheap to exact, and each evaluator that serves them. Layers drawn as triangles have one.
+std::vector<Candidate> candidates(const scene::Scene& scene);
+
+/// `scene` with one layer drawn as `candidate` says, and exactly wherever no integrator is named.
+scene::Scene withCandidate(const scene::Scene& scene, const Candidate& candidate);
+
+/// At most `count` different pixels (column, row), spread evenly and the same each time; 0 or more
+/// than there are: all, row by row.
+std::vector<glm::ivec2> samplePixels(scene::PictureSize size, std::uint64_t count);
+
+}  // namespace volcast::accuracy

@@ -1,0 +1,139 @@
+#include "server/commands/accuracy_rows.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "renderer/worker/frame_message.h"
+
+namespace volcast::commands {
+
+namespace {
+
+namespace json = boost::json;
+
+using Cells = std::vector<std::string>;
+
+std::string text(const char* format, double value) {
+    std::array<char, 64> buffer{};
+    std::snprintf(buffer.data(), buffer.size(), format, value);
+    return buffer.data();
+}
+
+std::string percent(double share) {
+    return text(share > 0.0 && share < 1e-4 ? "%.1e%%" : "%.2f%%", 100.0 * share);
+}
+
+bool beats(const AccuracyRow& a, const AccuracyRow& b) {
+    const bool noWorse = errorOf(a) <= errorOf(b) && a.measured->medianMs <= b.measured->medianMs;
+    const bool better = errorOf(a) < errorOf(b) || a.measured->medianMs < b.measured->medianMs;
+    return noWorse && better;
+}
+
+Cells cellsOf(const AccuracyRow& row) {
+    Cells cells{row.onFront ? "*" : "", row.model, row.integrator, row.evaluator};
+    if (!row.measured) return cells;
+    const accuracy::Measurement& m = *row.measured;
+    for (const double error : {m.all.max, m.all.rms}) cells.push_back(text("%.2e", error));
+    cells.push_back(percent(m.all.share255));
+    cells.push_back(percent(m.all.share65535));
+    cells.push_back(text("%.2e", m.inner.max));
+    cells.push_back(text("%.2e", m.inner.rms));
+    cells.push_back(percent(m.inner.share255));
+    for (const double ms : {m.medianMs, m.minMs, m.maxMs}) cells.push_back(text("%.2f", ms));
+    cells.push_back(text("%.1f", m.cellsPerRay));
+    return cells;
+}
+
+/// Numbers to the right; the first `left` columns to the left.
+std::string align(const std::vector<Cells>& table, std::size_t left) {
+    std::vector<std::size_t> widths;
+    for (const Cells& line : table) {
+        widths.resize(std::max(widths.size(), line.size()));
+        for (std::size_t i = 0; i < line.size(); ++i) {
+            widths[i] = std::max(widths[i], line[i].size());
+        }
+    }
+    std::string out;
+    for (const Cells& line : table) {
+        std::string row;
+        for (std::size_t i = 0; i < line.size(); ++i) {
+            const std::string padding(widths[i] - line[i].size(), ' ');
+            row += (i == 0 ? "" : "  ") + (i < left ? line[i] + padding : padding + line[i]);
+        }
+        out += row.substr(0, row.find_last_not_of(' ') + 1) + "\n";
+    }
+    return out;
+}
+
+json::object jsonOf(const accuracy::Errors& errors) {
+    return {{"pixels", errors.pixels},
+            {"max", errors.max},
+            {"rms", errors.rms},
+            {"share_over_1_255", errors.share255},
+            {"share_over_1_65535", errors.share65535}};
+}
+
+json::object jsonOf(const AccuracyRow& row, const AccuracyRun& run) {
+    json::object object{{"model", row.model},
+                        {"layer", row.layer},
+                        {"integrator", row.integrator},
+                        {"evaluator", row.evaluator}};
+    if (!row.measured) {
+        object["refusal"] = row.refusal;
+        return object;
+    }
+    const accuracy::Measurement& m = *row.measured;
+    object["drawn_by"] = worker::name(m.evaluator);
+    object["error"] = jsonOf(m.all);
+    object["error_without_silhouettes"] = jsonOf(m.inner);
+    object["median_ms"] = m.medianMs;
+    object["min_ms"] = m.minMs;
+    object["max_ms"] = m.maxMs;
+    object["cells_per_ray"] = m.cellsPerRay;
+    object["cells_visited"] = std::round(m.cellsPerRay * run.size.x * run.size.y);
+    object["on_front"] = row.onFront;
+    return object;
+}
+
+}  // namespace
+
+double errorOf(const AccuracyRow& row) {
+    return row.measured->all.rms;
+}
+
+void markFronts(std::vector<AccuracyRow>& rows) {
+    for (AccuracyRow& row : rows) {
+        row.onFront = row.measured.has_value() &&
+                      std::ranges::none_of(rows, [&row](const AccuracyRow& other) {
+                          return other.measured.has_value() && other.model == row.model &&
+                                 other.layer == row.layer && beats(other, row);
+                      });
+    }
+}
+
+std::string tableOf(const AccuracyRun& run) {
+    std::vector<Cells> table{
+        {"", "", "", "", "all", "pixels", "", "", "without", "silhouettes", "", "ms", "", "",
+         "cells"},
+        {"", "model", "integrator", "evaluator", "max", "rms", ">1/255", ">1/65535", "max", "rms",
+         ">1/255", "median", "min", "max", "per ray"}};
+    for (const AccuracyRow& row : run.rows) table.push_back(cellsOf(row));
+    std::string out = align(table, 4);
+    for (const AccuracyRow& row : run.rows) {
+        if (row.measured) continue;
+        out += row.model + " " + row.integrator + " " + row.evaluator + ": " + row.refusal + "\n";
+    }
+    return out;
+}
+
+json::object jsonOf(const AccuracyRun& run) {
+    json::array rows;
+    for (const AccuracyRow& row : run.rows) rows.push_back(jsonOf(row, run));
+    return {{"command", run.command},           {"data", run.data},     {"cells", run.cells},
+            {"size", {run.size.x, run.size.y}}, {"frames", run.frames}, {"gl", run.gl},
+            {"rows", std::move(rows)}};
+}
+
+}  // namespace volcast::commands
