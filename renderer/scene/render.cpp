@@ -257,6 +257,7 @@ Result<void> DeviceRenderer::prepareLayer(Frame& frame, LayerDraw& draw) {
     LayerState& state = frame.view->layers[draw.layer->id];
     if (state.generation != draw.dataset->generation()) {
         state.walk = mesh::WalkState::create();
+        state.projection = mesh::ProjectionState::create();
         state.generation = draw.dataset->generation();
     }
     draw.state = &state;
@@ -353,9 +354,15 @@ Result<void> DeviceRenderer::drawLayer(const Frame& frame, const LayerDraw& draw
         .constants = draw.constants,
         .clipPlanes = static_cast<int>(frame.scene->clipPlanes.size()),
         .target = isOpaque(draw) ? &frame.picture->opaquePass : &frame.picture->transparentPass};
-    return draw.plan->evaluator == plan::Evaluator::kMeshRaster
-               ? mesh::drawSurface(inputs)
-               : mesh::drawWalk(inputs, *draw.state->walk);
+    switch (draw.plan->evaluator) {
+        case plan::Evaluator::kMeshRaster: return mesh::drawSurface(inputs);
+        case plan::Evaluator::kMeshProjection:
+        case plan::Evaluator::kMeshProjectionFaces:
+            return mesh::drawProjection(inputs, *draw.state->projection);
+        case plan::Evaluator::kMeshWalk:
+        case plan::Evaluator::kVolumeMarch: break;
+    }
+    return mesh::drawWalk(inputs, *draw.state->walk);
 }
 
 Result<void> DeviceRenderer::resolve(const Frame& frame) {
