@@ -13,7 +13,7 @@ const float kMargin = 1.0 / 64.0;  // pixels
 const float kLongestTip = 8.0;     // margins; sharper corners are not drawn out further
 
 // Outside the picture; a triangle with this as each of its corners is not drawn.
-const vec4 kOutside = vec4(2.0, 2.0, 2.0, 1.0);
+const vec4 kOutside = vec4(0.0, 0.0, 0.5, 1.0);
 
 // Depth only cuts off what is behind the eye; nothing is clipped in an orthographic camera.
 vec4 clipOf(vec3 at) {
