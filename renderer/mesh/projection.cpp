@@ -49,7 +49,8 @@ void drawCells(const DrawInputs& inputs, const gpu::Program& program, const Comb
     program.use();
     cache.bind(inputs);
     const int cells = MeshBuffers::of(*inputs.meshGpu).cellCount;
-    inputs.device->draw(gpu::Primitive::kTriangles, kVerticesACell * std::min(cells, kCellsAnInstance),
+    inputs.device->draw(gpu::Primitive::kTriangles,
+                        kVerticesACell * std::min(cells, kCellsAnInstance),
                         (cells + kCellsAnInstance - 1) / kCellsAnInstance);
 }
 

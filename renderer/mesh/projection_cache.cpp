@@ -43,9 +43,9 @@ Result<void> ProjectionCache::sort(const DrawInputs& inputs) {
     }
     if (orderCamera_ == camera_.version()) return {};
     const bool perspective = inputs.camera->projection == scene::Projection::kPerspective;
-    const auto order = order_->sort(
-        {.perspective = perspective,
-         .at = perspective ? camera_.eye() : scene::frame(*inputs.camera).forward});
+    const auto order =
+        order_->sort({.perspective = perspective,
+                      .at = perspective ? camera_.eye() : scene::frame(*inputs.camera).forward});
     if (!cells_.valid() || cells_.bytes() != order.size_bytes()) {
         cells_ = {};
         auto made = gpu::Buffer::create(*inputs.device, {.bytes = order.size_bytes(),

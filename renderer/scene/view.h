@@ -18,7 +18,8 @@ struct LayerState {
     MapTable map;
     std::unique_ptr<mesh::WalkState> walk = mesh::WalkState::create();
     std::unique_ptr<mesh::ProjectionState> projection = mesh::ProjectionState::create();
-    std::uint64_t generation = 0;  ///< Of the dataset that `walk` and `projection` belong to.
+    bool projected = false;        ///< `projection` is in use, `walk` is empty.
+    std::uint64_t generation = 0;  ///< Of the dataset that both belong to.
 };
 
 /// All that decides where a picture's rays run.

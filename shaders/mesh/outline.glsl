@@ -12,8 +12,9 @@ const float kNearest = 1.0e-7;
 const float kMargin = 1.0 / 64.0;  // pixels
 const float kLongestTip = 8.0;     // margins; sharper corners are not drawn out further
 
-// Outside the picture; a triangle with this as each of its corners is not drawn.
-const vec4 kOutside = vec4(0.0, 0.0, 0.5, 1.0);
+// A triangle with this as each of its corners is a point and covers nothing. It is within the
+// picture: what is outside has to be clipped, which costs more.
+const vec4 kNowhere = vec4(0.0, 0.0, 0.5, 1.0);
 
 // Depth only cuts off what is behind the eye; nothing is clipped in an orthographic camera.
 vec4 clipOf(vec3 at) {
@@ -52,7 +53,7 @@ vec4 enlarged(vec4 clip, vec4 next, vec4 last, bool eitherSide) {
     vec2 ab = b - a;
     vec2 ac = c - a;
     float width = (ab.x * ac.y - ab.y * ac.x) / max(max(length(ab), length(ac)), length(c - b));
-    if (width < -kMargin && !eitherSide) return kOutside;
+    if (width < -kMargin && !eitherSide) return kNowhere;
     bool turned = width < 0.0 && eitherSide;
     vec2 corner = turned ? outwards(b, a, c) : outwards(c, a, b);
     return vec4(corner / pixels * clip.w, clip.zw);

@@ -1,6 +1,6 @@
-// Cells by their faces: 12 vertices a cell. Each face covers the pixels whose lines may meet it
-// (mesh/outline.glsl); its corners go to the fragment shader in an order that is counter-clockwise
-// in the picture where only one side of faces is drawn.
+// Cells by their faces: 12 vertices a cell, kCellsAnInstance cells an instance. Each face covers the
+// pixels whose lines may meet it (mesh/outline.glsl); its corners go to the fragment shader in an
+// order that is counter-clockwise in the picture where only one side of faces is drawn.
 // Constants: kSorted: cells come as cellOrder has them; kSides: which faces are drawn;
 // kCellsAnInstance.
 #include "mesh/outline.glsl"
@@ -33,8 +33,7 @@ void includeCrossing(vec4 p, vec4 q, inout vec2 low, inout vec2 high) {
     high = max(high, mix(vec2(-2.0), vec2(2.0), greaterThan(at, -doubt)));
 }
 
-// Corner `turn` of a triangle over all of the picture that a face which the plane of the eye cuts
-// may be seen in.
+// Corner `turn` of a triangle over all of the picture that a face may be seen in.
 vec4 covering(vec4 p, vec4 q, vec4 r, int turn) {
     vec2 low = vec2(2.0);
     vec2 high = vec2(-2.0);
@@ -47,9 +46,14 @@ vec4 covering(vec4 p, vec4 q, vec4 r, int turn) {
     vec2 margin = 2.0 * layer.viewport.zw;
     low = max(low - margin, vec2(-1.0));
     high = min(high + margin, vec2(1.0));
-    if (any(greaterThanEqual(low, high))) return kOutside;
+    if (any(greaterThanEqual(low, high))) return kNowhere;
     vec2 size = 2.0 * (high - low);
     return vec4(low + vec2(turn == 1 ? size.x : 0.0, turn == 2 ? size.y : 0.0), 0.5, 1.0);
+}
+
+// Too far out of the picture to be exact to a part of a pixel; also where it is behind the eye.
+bool isLarge(vec4 corner) {
+    return corner.z <= 0.0 || max(abs(corner.x), abs(corner.y)) > 4.0 * corner.w;
 }
 
 void main() {
@@ -57,6 +61,12 @@ void main() {
     int face = (gl_VertexID - 12 * place) / 3;
     int turn = gl_VertexID - 12 * place - 3 * face;
     place += kCellsAnInstance * gl_InstanceID;
+    if (place >= textureSize(cellCorners)) {  // The last instance has room for more.
+        faceCell = 0;
+        faceCorners = ivec4(0);
+        gl_Position = kNowhere;
+        return;
+    }
     faceCell = kSorted ? texelFetch(cellOrder, place).r : place;
     faceCorners = faceOf(texelFetch(cellCorners, faceCell), face);
     // From the eye, faces on the far side run the other way round.
@@ -64,7 +74,8 @@ void main() {
     vec4 a = clipOf(faceCorners.x);
     vec4 b = clipOf(faceCorners.y);
     vec4 c = clipOf(faceCorners.z);
-    if (min(a.z, min(b.z, c.z)) <= 0.0) {
+    // Cut by the plane of the eye, or so large that its outline would be lost to rounding.
+    if (isLarge(a) || isLarge(b) || isLarge(c)) {
         gl_Position = covering(a, b, c, turn);
         return;
     }
