@@ -75,12 +75,6 @@ void main() {
     vec4 b = clipOf(faceCorners.y);
     vec4 c = clipOf(faceCorners.z);
     // Cut by the plane of the eye, or so large that its outline would be lost to rounding.
-    if (isLarge(a) || isLarge(b) || isLarge(c)) {
-        gl_Position = covering(a, b, c, turn);
-        return;
-    }
-    vec4 clip = turn == 0 ? a : turn == 1 ? b : c;
-    vec4 next = turn == 0 ? b : turn == 1 ? c : a;
-    vec4 last = turn == 0 ? c : turn == 1 ? a : b;
-    gl_Position = enlarged(clip, next, last, kSides == kAllSides);
+    bool large = isLarge(a) || isLarge(b) || isLarge(c);
+    gl_Position = large ? covering(a, b, c, turn) : enlarged(a, b, c, turn, kSides == kAllSides);
 }
