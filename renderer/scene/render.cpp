@@ -59,6 +59,21 @@ struct Frame {
     std::uint64_t cameraVersion = 0;
 };
 
+bool isProjected(const LayerDraw& draw) {
+    return draw.plan->evaluator == plan::Evaluator::kMeshProjection ||
+           draw.plan->evaluator == plan::Evaluator::kMeshProjectionFaces;
+}
+
+/// The orders of layers that need one, as last drawn.
+std::vector<LayerOrder> ordersOf(const Frame& frame) {
+    std::vector<LayerOrder> orders;
+    for (const LayerDraw& draw : frame.draws) {
+        const mesh::OrderReport report = frame.view->layers[draw.layer->id].projection->order();
+        if (report.cells > 0) orders.push_back({.layer = draw.layer->id, .report = report});
+    }
+    return orders;
+}
+
 bool isOpaque(const LayerDraw& draw) {
     return row(draw.layer->model).opaque;
 }
@@ -180,6 +195,7 @@ Result<FrameInfo> DeviceRenderer::render(std::uint64_t view, const Scene& scene,
     if (!readMs) return readMs.error();
     info.readbackMs = *readMs;
     info.drawn = work != Work::kNothing;
+    info.orders = ordersOf(frame);
     if (info.drawn) ++counters_.framesDrawn;
     info.work = counters_ - before;
     return info;
@@ -262,9 +278,12 @@ Result<void> DeviceRenderer::prepare(Frame& frame) {
 
 Result<void> DeviceRenderer::prepareLayer(Frame& frame, LayerDraw& draw) {
     LayerState& state = frame.view->layers[draw.layer->id];
-    if (state.generation != draw.dataset->generation()) {
+    // What one evaluator keeps is of no use to the other.
+    if (state.generation != draw.dataset->generation() || state.projected != isProjected(draw)) {
         state.walk = mesh::WalkState::create();
+        state.projection = mesh::ProjectionState::create();
         state.generation = draw.dataset->generation();
+        state.projected = isProjected(draw);
     }
     draw.state = &state;
     draw.constants.push_back({"kEndsAtSurfaces", draw.plan->has(plan::kEndsAtSurfaces)});
@@ -377,9 +396,9 @@ Result<void> DeviceRenderer::drawLayer(const Frame& frame, const LayerDraw& draw
         .clipPlanes = static_cast<int>(frame.scene->clipPlanes.size()),
         .psiTable = draw.plan->method == Integrator::kPsiTable ? &psiTable_ : nullptr,
         .target = isOpaque(draw) ? &frame.picture->opaquePass : &frame.picture->transparentPass};
-    return draw.plan->evaluator == plan::Evaluator::kMeshRaster
-               ? mesh::drawSurface(inputs)
-               : mesh::drawWalk(inputs, *draw.state->walk);
+    if (draw.plan->evaluator == plan::Evaluator::kMeshRaster) return mesh::drawSurface(inputs);
+    return isProjected(draw) ? mesh::drawProjection(inputs, *draw.state->projection)
+                             : mesh::drawWalk(inputs, *draw.state->walk);
 }
 
 Result<void> DeviceRenderer::resolve(const Frame& frame) {

@@ -10,6 +10,7 @@
 #include "renderer/base/result.h"
 #include "renderer/data/dataset.h"
 #include "renderer/gpu/device.h"
+#include "renderer/mesh/visibility_order.h"
 #include "renderer/plan/plan.h"
 #include "renderer/scene/scene.h"
 #include "renderer/shading/assemble.h"
@@ -26,9 +27,16 @@ struct Counters {
     std::uint64_t framesDrawn = 0;  ///< render() calls that drew; the others reused the picture.
 };
 
+/// In which order the cells of a layer were blended.
+struct LayerOrder {
+    std::string layer;
+    mesh::OrderReport report;
+};
+
 /// What one call of render() made and took.
 struct FrameInfo {
     plan::FramePlan plan;
+    std::vector<LayerOrder> orders;  ///< Of the layers whose cells must come front to back.
     double uploadMs = 0.0;
     double drawMs = 0.0;  ///< Until the GPU was done.
     double readbackMs = 0.0;

@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "renderer/mesh/projection.h"
 #include "renderer/mesh/walk.h"
 #include "renderer/scene/map_table.h"
 #include "renderer/scene/picture.h"
@@ -16,7 +17,9 @@ namespace volcast::scene {
 struct LayerState {
     MapTable map;
     std::unique_ptr<mesh::WalkState> walk = mesh::WalkState::create();
-    std::uint64_t generation = 0;  ///< Of the dataset that `walk` belongs to.
+    std::unique_ptr<mesh::ProjectionState> projection = mesh::ProjectionState::create();
+    bool projected = false;        ///< `projection` is in use, `walk` is empty.
+    std::uint64_t generation = 0;  ///< Of the dataset that both belong to.
 };
 
 /// All that decides where a picture's rays run.

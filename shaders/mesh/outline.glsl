@@ -10,10 +10,14 @@
 const float kNearest = 1.0e-7;
 
 const float kMargin = 1.0 / 64.0;  // pixels
-const float kLongestTip = 8.0;     // margins; sharper corners are not drawn out further
+// Corners are drawn out by so many margins at most, and faces thinner than kThin of their length
+// are drawn as boxes: their corners may be so sharp that this would not move their edges.
+const float kLongestTip = 32.0;
+const float kThin = 1.0 / 64.0;
 
-// Outside the picture; a triangle with this as each of its corners is not drawn.
-const vec4 kOutside = vec4(2.0, 2.0, 2.0, 1.0);
+// A triangle with this as each of its corners is a point and covers nothing. It is within the
+// picture: what is outside has to be clipped, which costs more.
+const vec4 kNowhere = vec4(0.0, 0.0, 0.5, 1.0);
 
 // Depth only cuts off what is behind the eye; nothing is clipped in an orthographic camera.
 vec4 clipOf(vec3 at) {
@@ -41,19 +45,47 @@ vec2 outwards(vec2 before, vec2 corner, vec2 after) {
     return corner + bisector * (kMargin * reach);
 }
 
-// A corner of a face that lies before the eye (all clip.z > 0), and the two that come next, as the
-// clip position of the same corner of the larger triangle. `eitherSide`: also where they run
-// clockwise; otherwise such a face is not drawn.
-vec4 enlarged(vec4 clip, vec4 next, vec4 last, bool eitherSide) {
+// Corner `turn` of a triangle over a box of which `base` is one side: from base to base + along and
+// `height` to its left, and kMargin more all round. Pixels.
+vec2 boxCorner(vec2 base, vec2 along, float height, int turn) {
+    float size = length(along);
+    vec2 right = size > 0.0 ? along / size : vec2(1.0, 0.0);
+    vec2 up = vec2(-right.y, right.x);
+    vec2 corner = base - kMargin * (right + up);
+    return turn == 0   ? corner
+           : turn == 1 ? corner + 2.0 * (size + 2.0 * kMargin) * right
+                       : corner + 2.0 * (height + 2.0 * kMargin) * up;
+}
+
+// Corner `turn` of the larger triangle of a face that lies before the eye (all clip.z > 0).
+// `eitherSide`: also where its corners run clockwise; otherwise such a face is not drawn.
+vec4 enlarged(vec4 clipA, vec4 clipB, vec4 clipC, int turn, bool eitherSide) {
     vec2 pixels = 0.5 * layer.viewport.xy;
-    vec2 a = clip.xy / clip.w * pixels;
-    vec2 b = next.xy / next.w * pixels;
-    vec2 c = last.xy / last.w * pixels;
-    vec2 ab = b - a;
-    vec2 ac = c - a;
-    float width = (ab.x * ac.y - ab.y * ac.x) / max(max(length(ab), length(ac)), length(c - b));
-    if (width < -kMargin && !eitherSide) return kOutside;
-    bool turned = width < 0.0 && eitherSide;
-    vec2 corner = turned ? outwards(b, a, c) : outwards(c, a, b);
-    return vec4(corner / pixels * clip.w, clip.zw);
+    vec2 a = clipA.xy / clipA.w * pixels;
+    vec2 b = clipB.xy / clipB.w * pixels;
+    vec2 c = clipC.xy / clipC.w * pixels;
+    float area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+    if (eitherSide && area < 0.0) {
+        vec2 other = b;
+        b = c;
+        c = other;
+        area = -area;
+    }
+    vec3 sides = vec3(length(b - a), length(c - b), length(a - c));
+    float longest = max(sides.x, max(sides.y, sides.z));
+    float width = longest > 0.0 ? area / longest : 0.0;
+    if (width < -kMargin) return kNowhere;
+    vec2 corner;
+    if (width > kThin * longest) {
+        corner = turn == 0   ? outwards(c, a, b)
+                 : turn == 1 ? outwards(a, b, c)
+                             : outwards(b, c, a);
+    } else if (sides.x == longest) {
+        corner = boxCorner(a, b - a, max(width, 0.0), turn);
+    } else if (sides.y == longest) {
+        corner = boxCorner(b, c - b, max(width, 0.0), turn);
+    } else {
+        corner = boxCorner(c, a - c, max(width, 0.0), turn);
+    }
+    return vec4(corner / pixels, 0.5, 1.0);
 }

@@ -128,7 +128,7 @@ bool crossCells(inout Walk walk, inout RayState state, inout Segment rest, inout
         --steps;
         if (!kSplits || rest.extent < 0.0) {
             rest = trimmed(crossCell(walk, line.sight, line.worldPerDepth), line.window);
-            if (!kContinuous) enterData(state, rest);
+            if (!kContinuous && rest.extent >= 0.0) enterData(state, rest);
         }
         ended = gather(state, rest, walk, line);
     }

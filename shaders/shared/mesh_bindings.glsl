@@ -9,6 +9,9 @@ const int kFieldUnit = 8;      // values as they are stored
 const int kEntryUnit = 9;      // a pixel's first boundary face, or the head of its list
 const int kEntryNodeUnit = 10; // nodes of all lists
 const int kDensityUnit = 11;   // values of the second field as they are stored
+const int kCornerUnit = 12;    // a cell's vertices, positively oriented
+const int kOrderUnit = 13;     // cells by number, front to back
+const int kAccumulatedUnit = 14; // what cells gave to each pixel
 
 // Storage blocks
 const int kVertexStorage = 0;

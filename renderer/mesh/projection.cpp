@@ -1,0 +1,114 @@
+#include "renderer/mesh/projection.h"
+
+#include <algorithm>
+
+#include "renderer/mesh/combine_state.h"
+#include "renderer/mesh/mesh_buffers.h"
+#include "renderer/mesh/projection_cache.h"
+#include "renderer/mesh/shared.h"
+#include "renderer/plan/effects.h"
+
+namespace volcast::mesh {
+
+namespace {
+
+constexpr int kVerticesACell = 12;
+constexpr int kCellsAnInstance = 4096;  // An instance costs llvmpipe a quarter of a microsecond.
+
+ProjectionTraits traitsOf(const DrawInputs& inputs) {
+    const bool perspective = inputs.camera->projection == scene::Projection::kPerspective;
+    const bool clipsAtStart = inputs.planeDepth <= 0.0;
+    ProjectionTraits traits{.model = inputs.layer->model,
+                            .integrator = inputs.plan->method,
+                            .valuesAt = valuesAt(inputs.field),
+                            .densityAt = valuesAt(inputs.density),
+                            .lit = inputs.plan->has(plan::kGradient),
+                            .interval = inputs.plan->has(plan::kInterval),
+                            .clipPlanes = inputs.clipPlanes,
+                            .clipsAtStart = clipsAtStart,
+                            .sides = clipsAtStart && perspective ? Sides::kFar : Sides::kNear};
+    // Where rays are cut within a cell they end at values that no face has.
+    const bool cut = clipsAtStart || traits.interval || traits.clipPlanes > 0 ||
+                     inputs.plan->has(plan::kEndsAtSurfaces);
+    if (inputs.plan->evaluator == plan::Evaluator::kMeshProjectionFaces && !cut) {
+        traits.sides = Sides::kAll;
+    }
+    return traits;
+}
+
+/// Draws the cells into the blended shares, or those of opaque models into the picture.
+void drawCells(const DrawInputs& inputs, const gpu::Program& program, const CombineState& combine,
+               const ProjectionCache& cache) {
+    const gpu::PassState pass{.blend = combine.blend, .depth = combine.depth};
+    if (combine.combine == scene::Combine::kNearest) {
+        inputs.target->begin(pass);
+    } else {
+        cache.shares().begin(pass);
+        cache.shares().clearColour(0, glm::vec4{combine.neutral});
+    }
+    program.use();
+    cache.bind(inputs);
+    const int cells = MeshBuffers::of(*inputs.meshGpu).cellCount;
+    inputs.device->draw(gpu::Primitive::kTriangles,
+                        kVerticesACell * std::min(cells, kCellsAnInstance),
+                        (cells + kCellsAnInstance - 1) / kCellsAnInstance);
+}
+
+}  // namespace
+
+shading::Recipe projectionRecipe(const ProjectionTraits& traits,
+                                 std::vector<shading::Constant> constants) {
+    const scene::RayModelRow& row = scene::row(traits.model);
+    const scene::IntegratorRow* integrator = scene::integratorRow(traits.model, traits.integrator);
+    constants.insert(constants.end(), {{"kValuesAt", traits.valuesAt},
+                                       {"kDensityAt", traits.densityAt},
+                                       {"kLit", traits.lit},
+                                       {"kInterval", traits.interval},
+                                       {"kClipPlanes", traits.clipPlanes},
+                                       {"kClipsAtStart", traits.clipsAtStart},
+                                       {"kSorted", stateOf(row.combine).sorted},
+                                       {"kSides", static_cast<int>(traits.sides)},
+                                       {"kCellsAnInstance", kCellsAnInstance}});
+    return {.evaluator = traits.sides == Sides::kAll ? "mesh/projection_faces.glsl"
+                         : row.opaque                ? "mesh/projection_opaque.glsl"
+                                                     : "mesh/projection.glsl",
+            .classify = "classify/transfer_function.glsl",
+            .segment = integrator == nullptr ? "" : std::string{integrator->chunk},
+            .model = std::string{row.chunk},
+            .constants = std::move(constants)};
+}
+
+shading::Recipe projectionFinishRecipe(const ProjectionTraits& traits,
+                                       std::vector<shading::Constant> constants) {
+    shading::Recipe recipe = projectionRecipe(traits, {});
+    recipe.evaluator = "mesh/projection_finish.glsl";
+    constants.push_back({"kLit", traits.lit});
+    recipe.constants = std::move(constants);
+    return recipe;
+}
+
+std::unique_ptr<ProjectionState> ProjectionState::create() {
+    return std::make_unique<ProjectionCache>();
+}
+
+Result<void> drawProjection(const DrawInputs& inputs, ProjectionState& state) {
+    ProjectionCache& cache = ProjectionCache::of(state);
+    const ProjectionTraits traits = traitsOf(inputs);
+    const CombineState& combine = stateOf(scene::row(traits.model).combine);
+    const bool blended = combine.combine != scene::Combine::kNearest;
+    const auto cells =
+        inputs.programs->ray(projectionRecipe(traits, inputs.constants), kProjectionVertex);
+    if (!cells) return cells.error();
+    if (auto done = cache.prepare(inputs, combine.sorted, blended); !done) return done;
+    drawCells(inputs, **cells, combine, cache);
+    if (!blended) return {};
+    const auto finish = inputs.programs->ray(projectionFinishRecipe(traits, inputs.constants));
+    if (!finish) return finish.error();
+    inputs.target->begin({.blend = gpu::Blend::kOver});
+    (*finish)->use();
+    cache.bindShares();
+    inputs.device->draw(gpu::Primitive::kTriangles, 3);
+    return {};
+}
+
+}  // namespace volcast::mesh

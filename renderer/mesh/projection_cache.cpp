@@ -1,0 +1,98 @@
+#include "renderer/mesh/projection_cache.h"
+
+#include <array>
+#include <span>
+
+#include "renderer/mesh/mesh_buffers.h"
+#include "renderer/mesh/shared.h"
+
+namespace volcast::mesh {
+
+Result<void> ProjectionCache::prepare(const DrawInputs& inputs, bool sorted, bool blended) {
+    if (auto done = camera_.prepare(inputs); !done) return done;
+    if (auto done = findCorners(inputs); !done) return done;
+    sorted_ = sorted;
+    if (sorted) {
+        if (auto done = sort(inputs); !done) return done;
+    }
+    return blended ? makeShares(inputs) : Result<void>{};
+}
+
+Result<void> ProjectionCache::findCorners(const DrawInputs& inputs) {
+    const MeshBuffers& mesh = MeshBuffers::of(*inputs.meshGpu);
+    if (cornersMesh_ == mesh.serial) return {};
+    cornersMesh_ = 0;
+    const std::span<const glm::ivec4> cells = inputs.mesh->cells.span();
+    auto made = gpu::Buffer::create(*inputs.device,
+                                    {.bytes = cells.size_bytes(),
+                                     .texels = gpu::TexelFormat::kRgba32I,
+                                     .label = "corners of cells"},
+                                    std::as_bytes(cells));
+    if (!made) return made.error();
+    corners_ = std::move(*made);
+    cornersMesh_ = mesh.serial;
+    return {};
+}
+
+Result<void> ProjectionCache::sort(const DrawInputs& inputs) {
+    const MeshBuffers& mesh = MeshBuffers::of(*inputs.meshGpu);
+    if (orderMesh_ != mesh.serial) {
+        order_.emplace(*inputs.mesh);
+        orderMesh_ = mesh.serial;
+        orderCamera_ = 0;
+    }
+    if (orderCamera_ == camera_.version()) return {};
+    const bool perspective = inputs.camera->projection == scene::Projection::kPerspective;
+    const auto order =
+        order_->sort({.perspective = perspective,
+                      .at = perspective ? camera_.eye() : scene::frame(*inputs.camera).forward});
+    if (!cells_.valid() || cells_.bytes() != order.size_bytes()) {
+        cells_ = {};
+        auto made = gpu::Buffer::create(*inputs.device, {.bytes = order.size_bytes(),
+                                                         .updatable = true,
+                                                         .texels = gpu::TexelFormat::kR32I,
+                                                         .label = "order of cells"});
+        if (!made) return made.error();
+        cells_ = std::move(*made);
+    }
+    cells_.update(0, std::as_bytes(order));
+    orderCamera_ = camera_.version();
+    return {};
+}
+
+Result<void> ProjectionCache::makeShares(const DrawInputs& inputs) {
+    if (shares_.size() == inputs.size) return {};
+    auto shares = gpu::Texture2D::create(
+        *inputs.device,
+        {.size = inputs.size, .format = gpu::PixelFormat::kRgba32F, .label = "shares of cells"});
+    if (!shares) return shares.error();
+    const std::array colours{&*shares};
+    auto target = gpu::Target::create(*inputs.device, "shares of cells", colours);
+    if (!target) return target.error();
+    shareTarget_ = std::move(*target);
+    shares_ = std::move(*shares);
+    return {};
+}
+
+void ProjectionCache::bind(const DrawInputs& inputs) const {
+    camera_.bindBlock();
+    camera_.bindVertices();
+    corners_.bindTexels(shared::kCornerUnit);
+    if (sorted_) cells_.bindTexels(shared::kOrderUnit);
+    if (inputs.field != nullptr) {
+        FieldBuffer::of(*inputs.field).values.bindTexels(shared::kFieldUnit);
+    }
+    if (inputs.density != nullptr) {
+        FieldBuffer::of(*inputs.density).values.bindTexels(shared::kDensityUnit);
+    }
+}
+
+void ProjectionCache::bindShares() const {
+    shares_.bind(shared::kAccumulatedUnit);
+}
+
+OrderReport ProjectionCache::order() const {
+    return sorted_ && order_ ? order_->report() : OrderReport{};
+}
+
+}  // namespace volcast::mesh

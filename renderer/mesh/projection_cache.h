@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "renderer/gpu/buffer.h"
+#include "renderer/gpu/target.h"
+#include "renderer/gpu/texture2d.h"
+#include "renderer/mesh/camera_vertices.h"
+#include "renderer/mesh/projection.h"
+
+namespace volcast::mesh {
+
+/// What stands behind ProjectionState.
+class ProjectionCache final : public ProjectionState {
+public:
+    /// Makes everything fit `inputs`; what is still right is kept. `sorted`: the order of cells
+    /// too, which takes the CPU some 0.1 us a cell. `blended`: with a texture to blend in.
+    ///
+    /// Errors: kShaderBuild, kOutOfGpuMemory, kLimitExceeded.
+    Result<void> prepare(const DrawInputs& inputs, bool sorted, bool blended);
+
+    /// Binds the mesh block, vertices, cells and their order.
+    void bind(const DrawInputs& inputs) const;
+
+    /// What shares of cells are blended in. Needs `blended`.
+    [[nodiscard]] const gpu::Target& shares() const noexcept { return shareTarget_; }
+    void bindShares() const;
+
+    [[nodiscard]] OrderReport order() const override;
+
+    static ProjectionCache& of(ProjectionState& state) {
+        return static_cast<ProjectionCache&>(state);
+    }
+
+private:
+    Result<void> findCorners(const DrawInputs& inputs);
+    Result<void> sort(const DrawInputs& inputs);
+    Result<void> makeShares(const DrawInputs& inputs);
+
+    CameraVertices camera_;
+    std::optional<VisibilityOrder> order_;
+    std::uint64_t orderMesh_ = 0;    ///< The serial of the mesh that `order_` is for.
+    std::uint64_t orderCamera_ = 0;  ///< The version of `camera_` that it was sorted for.
+    bool sorted_ = false;            ///< The last picture was.
+    gpu::Buffer corners_, cells_;
+    std::uint64_t cornersMesh_ = 0;
+    gpu::Texture2D shares_;
+    gpu::Target shareTarget_;
+};
+
+}  // namespace volcast::mesh

@@ -1,0 +1,15 @@
+// One cell's share of the rays that cross it, blended with those of the others. For models whose
+// packed states combine by a blend equation; mesh/projection_finish.glsl turns the sum into a
+// picture.
+// Uses: model.
+#include "mesh/projected_cell.glsl"
+
+layout(location = 0) out vec4 share;
+
+void main() {
+    if (gl_HelperInvocation) return;
+    RayState state;
+    float facing;
+    if (!gatherCell(state, facing)) discard;
+    share = packRay(state);
+}
