@@ -7,6 +7,8 @@
 #include "renderer/mesh/projection_cache.h"
 #include "renderer/mesh/shared.h"
 #include "renderer/plan/effects.h"
+#include "renderer/shading/psi_table.h"
+#include "renderer/shading/shared.h"
 
 namespace volcast::mesh {
 
@@ -48,6 +50,7 @@ void drawCells(const DrawInputs& inputs, const gpu::Program& program, const Comb
     }
     program.use();
     cache.bind(inputs);
+    if (inputs.psiTable != nullptr) inputs.psiTable->bindTexels(shading::shared::kPsiTableUnit);
     const int cells = MeshBuffers::of(*inputs.meshGpu).cellCount;
     inputs.device->draw(gpu::Primitive::kTriangles,
                         kVerticesACell * std::min(cells, kCellsAnInstance),
@@ -68,6 +71,7 @@ shading::Recipe projectionRecipe(const ProjectionTraits& traits,
                                        {"kClipsAtStart", traits.clipsAtStart},
                                        {"kSorted", stateOf(row.combine).sorted},
                                        {"kSides", static_cast<int>(traits.sides)},
+                                       {"kPsiTableSide", shading::kPsiTableSide},
                                        {"kCellsAnInstance", kCellsAnInstance}});
     return {.evaluator = traits.sides == Sides::kAll ? "mesh/projection_faces.glsl"
                          : row.opaque                ? "mesh/projection_opaque.glsl"
@@ -83,6 +87,7 @@ shading::Recipe projectionFinishRecipe(const ProjectionTraits& traits,
     shading::Recipe recipe = projectionRecipe(traits, {});
     recipe.evaluator = "mesh/projection_finish.glsl";
     constants.push_back({"kLit", traits.lit});
+    constants.push_back({"kPsiTableSide", shading::kPsiTableSide});
     recipe.constants = std::move(constants);
     return recipe;
 }

@@ -23,6 +23,10 @@ Segment pieceOf(ProjectedFace face, Corner q, Sight sight) {
     vec3 densityEnds = onOther(other, densities.front, densities.apex);
     float otherValue = projectedValue(kValuesAt, ends, other.weights);
     float otherDensity = projectedValue(kDensityAt, densityEnds, other.weights);
+    if (kDensityAt == kValuesNowhere) {
+        density = value;
+        otherDensity = otherValue;
+    }
     float world = worldPerDepth(sight);
     if (kSides == kFarSides) {
         return Segment(otherValue, value, otherDensity, density, max(here - there, 0.0) * world,

@@ -13,4 +13,4 @@ const int kOpaqueDistanceUnit = 1;
 const int kVoxelUnit = 2;
 const int kBrickUnit = 3;
 const int kFirstMeshUnit = 4;
-const int kPsiTableUnit = 12;
+const int kPsiTableUnit = 15;  // the last that any GPU has in a fragment shader
