@@ -13,6 +13,7 @@
 
 #include <gtest/gtest.h>
 
+#include "renderer/mesh/projection.h"
 #include "renderer/mesh/shared.h"
 #include "renderer/mesh/walk.h"
 #include "renderer/plan/effects.h"
@@ -147,6 +148,7 @@ protected:
 
     void addMarches();
     void addWalks();
+    void addProjections();
     void addWalk(const scene::RayModelRow& row, const scene::IntegratorRow& integrator, int bits);
     void addSurfaces();
     void addOtherPasses();
@@ -226,6 +228,37 @@ void Validator::addWalk(const scene::RayModelRow& row, const scene::IntegratorRo
     addRay(mesh::walkRecipe(traits, support::layerConstants(bits)), shading::kFullScreenVertex);
 }
 
+void Validator::addProjections() {
+    int turn = 0;
+    for (const scene::RayModelRow& row : scene::rayModels()) {
+        if (!row.onMeshes || row.chunk.empty()) continue;
+        for (const scene::IntegratorRow& integrator : row.integrators) {
+            for (int variant = 0; variant < 4; ++variant) {
+                const int bits = variant * 37 + turn++;
+                const bool all =
+                    variant == 0 && scene::serves(scene::MeshEvaluator::kProjectionFaces, row.model,
+                                                  integrator.integrator);
+                const mesh::ProjectionTraits traits{
+                    .model = row.model,
+                    .integrator = integrator.integrator,
+                    .valuesAt = bits % 3,
+                    .densityAt = (bits / 3) % 4,
+                    .lit = row.model == scene::RayModel::kIsosurface && bit(bits, 0),
+                    .interval = bit(bits, 1),
+                    .clipPlanes = bit(bits, 2) ? 2 : 0,
+                    .clipsAtStart = variant == 1,
+                    .sides = all            ? mesh::Sides::kAll
+                             : variant == 1 ? mesh::Sides::kFar
+                                            : mesh::Sides::kNear};
+                const auto constants = support::layerConstants(bits);
+                addRay(mesh::projectionRecipe(traits, constants), mesh::kProjectionVertex);
+                if (row.opaque) continue;
+                addRay(mesh::projectionFinishRecipe(traits, constants), shading::kFullScreenVertex);
+            }
+        }
+    }
+}
+
 void Validator::addSurfaces() {
     for (int variant = 0; variant < 48; ++variant) {
         std::vector<Constant> constants{{"kEndsAtSurfaces", false}};
@@ -258,6 +291,7 @@ TEST_F(Validator, EveryProgramIsGlslToAnIndependentCompiler) {
     EXPECT_EQ(programs_, 64);
     addWalks();
     EXPECT_EQ(programs_, 64 + 17 * kWalkVariants);
+    addProjections();
     addSurfaces();
     addOtherPasses();
     EXPECT_GT(stages_.size(), 300U);
