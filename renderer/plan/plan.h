@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,8 @@ struct LayerPlan {
     std::string integrator;  ///< As in the frame header: "average", "march", or empty.
     double stepWorld = 0.0;  ///< Voxels: the longest distance between samples, world units.
     std::vector<Effect> effects;
+    std::optional<double> predictedMs = {};  ///< Of this layer's draw, where it is known.
+    std::optional<double> errorBound = {};   ///< In 1/255, where it was measured.
     bool drawn = true;  ///< False where nothing can be seen (hidden, transparent everywhere).
     /// The layer whose walk draws this one too; empty: its own.
     std::string drawnWith;

@@ -66,6 +66,9 @@ void Session::receive(std::span<const std::byte> bytes, Form form, TimePoint now
         case v1::ClientMessage::kUpdate: return updateView(message->update(), now);
         case v1::ClientMessage::kCloseView: return closeView(message->close_view().view());
         case v1::ClientMessage::kAck: return ack(message->ack(), now);
+        case v1::ClientMessage::kExplain: return explain(message->explain());
+        case v1::ClientMessage::kMeasureAccuracy:
+            return measureAccuracy(message->measure_accuracy());
         case v1::ClientMessage::kPing: {
             v1::ServerMessage reply;
             reply.mutable_pong()->set_token(message->ping().token());
@@ -169,6 +172,10 @@ void Session::openView(const v1::OpenView& message, TimePoint now) {
                  .failed = onStrand([global](Session& self, std::uint64_t tag, const Error& error) {
                      self.failed(global, tag, error);
                  }),
+                 .measured = onStrand([global](Session& self, std::uint64_t tag,
+                                               const Result<accuracy::Measurement>& result) {
+                     self.measured(global, tag, result);
+                 }),
                  .recovering = onStrand([global](Session& self) { self.recovering(global); })});
     const std::uint32_t number = message.view();
     spdlog::info("event=view_opened connection={} view={} global={}", number_, number,
@@ -189,6 +196,7 @@ void Session::updateView(const v1::Update& message, TimePoint now) {
     if (*change == SceneChange::kNone) return;
     view->inputAt = now;
     view->frames.input(now);
+    stopMeasuring(*view, "the view changed");
     apply(*view, *change);
 }
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "server/session/shared.h"
+#include "server/session/view_accuracy.h"
 #include "server/session/view_frames.h"
 #include "server/session/view_scene.h"
 #include "server/session/wire.h"
@@ -71,6 +72,8 @@ private:
         std::uint64_t global = 0;  ///< Its number in the whole server.
         ViewScene scene;
         ViewFrames frames;
+        ViewAccuracy accuracy = {};
+        std::optional<v1::Plan> plan = {};  ///< Of the newest picture.
         v1::ViewState state = v1::VIEW_STATE_ACTIVE;
         bool opened = false;  ///< The client was told the scene.
         TimePoint inputAt{};
@@ -86,10 +89,15 @@ private:
     void closeView(std::uint32_t number);
     void ack(const v1::Ack& message, TimePoint now);
 
+    void explain(const v1::Explain& message);
+    void measureAccuracy(const v1::MeasureAccuracy& message);
+
     void datasetChanged(const v1::DatasetInfo& info);
     // News come with the view's number in the whole server: its own may be in use again.
     void rendered(const workers::RenderedFrame& frame);
     void failed(std::uint64_t global, std::uint64_t tag, const Error& error);
+    void measured(std::uint64_t global, std::uint64_t tag,
+                  const Result<accuracy::Measurement>& result);
     void recovering(std::uint64_t global);
     void encoded(std::uint64_t global, EncodedPicture picture);
 
@@ -97,6 +105,8 @@ private:
     void refuse(View& view, const Error& error, v1::ErrorCode code);
     void setState(View& view, v1::ViewState state, const std::string& text);
     void advance(View& view, TimePoint now);
+    void measureNext(View& view);
+    void stopMeasuring(View& view, const std::string& why);
     void startEncode(View& view, EncodeTask task);
     void send(const v1::ServerMessage& message);
     View* find(std::uint32_t number);

@@ -6,6 +6,7 @@
 
 #include "renderer/base/printable.h"
 #include "renderer/worker/scene_message.h"
+#include "server/session/explain.h"
 #include "server/session/on_strand.h"
 #include "server/session/session.h"
 
@@ -76,6 +77,7 @@ void Session::rendered(const workers::RenderedFrame& frame) {
     View* view = findGlobal(frame.view);
     const auto now = Clock::now();
     if (view == nullptr || !view->frames.rendered(frame)) return;
+    view->plan = planMessage(frame, view->number, view->frames.shownSeq());
     const bool waiting = view->scene.waiting();
     if (view->state == v1::VIEW_STATE_RECOVERING && waiting) {
         setState(*view, v1::VIEW_STATE_WAITING, "its data is being imported");

@@ -88,6 +88,10 @@ public:
     /// When tick() and the take functions should be called again though nothing happened.
     [[nodiscard]] std::optional<TimePoint> deadline(TimePoint now) const;
     [[nodiscard]] const FrameFlow& flow() const noexcept { return flow_; }
+    /// Input that the newest picture shows; 0 before the first.
+    [[nodiscard]] std::uint64_t shownSeq() const {
+        return picture_ ? picture_->header.input_seq() : shown_ ? shown_->header.input_seq() : 0;
+    }
     [[nodiscard]] std::uint32_t framesSent() const noexcept { return sequence_; }
 
 private:

@@ -1,0 +1,84 @@
+#include "server/session/view_accuracy.h"
+
+#include <algorithm>
+
+#include "renderer/worker/scene_message.h"
+
+namespace volcast::session {
+namespace {
+
+bool beats(const v1::AccuracyRow& a, const v1::AccuracyRow& b) {
+    const bool noWorse = a.rms_error() <= b.rms_error() && a.median_ms() <= b.median_ms();
+    return noWorse && (a.rms_error() < b.rms_error() || a.median_ms() < b.median_ms());
+}
+
+void put(const accuracy::Measurement& found, v1::AccuracyRow& row) {
+    row.set_max_error(found.all.max);
+    row.set_rms_error(found.all.rms);
+    row.set_share_over_255(found.all.share255);
+    row.set_share_over_65535(found.all.share65535);
+    row.set_median_ms(found.medianMs);
+    row.set_min_ms(found.minMs);
+    row.set_max_ms(found.maxMs);
+    row.set_cells_per_ray(found.cellsPerRay);
+}
+
+}  // namespace
+
+void ViewAccuracy::start(const scene::Scene& scene, scene::PictureSize size, std::uint64_t pixels) {
+    scene_ = scene;
+    size_ = size;
+    pixels_ = pixels == 0 ? kUsualPixels : std::min(pixels, kMostPixels);
+    candidates_ = accuracy::candidates(scene);
+    rows_.clear();
+    ++tag_;
+    running_ = !candidates_.empty();
+}
+
+accuracy::Job ViewAccuracy::job(std::uint64_t& tag) const {
+    tag = tag_;
+    return {.scene = scene_,
+            .size = size_,
+            .candidate = candidates_.at(rows_.size()),
+            .frames = kFrames,
+            .pixels = pixels_};
+}
+
+bool ViewAccuracy::measured(std::uint64_t tag, const Result<accuracy::Measurement>& result) {
+    if (!running_ || tag != tag_) return false;
+    const accuracy::Candidate& candidate = candidates_.at(rows_.size());
+    const scene::Layer& layer = scene_.layers.at(candidate.layer);
+    v1::AccuracyRow& row = rows_.emplace_back();
+    row.set_layer(layer.id);
+    row.set_model(worker::toMessage(layer.model));
+    row.set_integrator(worker::toMessage(candidate.integrator));
+    row.set_evaluator(worker::toMessage(candidate.evaluator));
+    if (result) {
+        put(*result, row);
+    } else {
+        row.set_refusal(result.error().message);
+    }
+    ++tag_;
+    running_ = rows_.size() < candidates_.size();
+    return true;
+}
+
+v1::AccuracyReport ViewAccuracy::report(std::uint32_t view) const {
+    v1::AccuracyReport report;
+    report.set_view(view);
+    report.set_done(!running_);
+    report.set_progress(candidates_.empty() ? 1.0
+                                            : static_cast<double>(rows_.size()) /
+                                                  static_cast<double>(candidates_.size()));
+    for (const v1::AccuracyRow& row : rows_) {
+        v1::AccuracyRow& added = *report.add_rows() = row;
+        added.set_on_front(row.refusal().empty() &&
+                           std::ranges::none_of(rows_, [&row](const v1::AccuracyRow& other) {
+                               return other.refusal().empty() && other.layer() == row.layer() &&
+                                      beats(other, row);
+                           }));
+    }
+    return report;
+}
+
+}  // namespace volcast::session
