@@ -32,7 +32,7 @@ struct Candidate {
 struct Job {
     scene::Scene scene;
     scene::PictureSize size{512};
-    Candidate candidate;
+    Candidate candidate = {};
     int frames = 0;            ///< Draws to time, after one that warms up; 0: errors alone.
     std::uint64_t pixels = 0;  ///< To compare, spread over the picture; 0: all.
 };

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <span>
+
 #include "renderer/data/dataset.h"
+#include "renderer/plan/evidence.h"
 #include "renderer/plan/plan.h"
 
 namespace volcast::plan {
@@ -11,7 +14,12 @@ struct Method {
     std::string reason;
 };
 
-/// `constantInCells`: both fields have one value a cell.
-Method chooseMethod(const scene::Layer& layer, const scene::Accuracy& wish, bool constantInCells);
+/// `constantInCells`: both fields have one value a cell. `evidence`: what is known of the model's
+/// integrators; a bound that nothing is known about is met by the exact one.
+Method chooseMethod(const scene::Layer& layer, const scene::Accuracy& wish, bool constantInCells,
+                    std::span<const Evidence> evidence = {});
+
+/// Whether chooseMethod() would use evidence.
+bool needsEvidence(const scene::Layer& layer, const scene::Accuracy& wish);
 
 }  // namespace volcast::plan

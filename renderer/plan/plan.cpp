@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <optional>
+#include <span>
 
 #include "renderer/plan/effects.h"
 #include "renderer/plan/method.h"
@@ -178,10 +179,20 @@ bool oneColour(const data::TransferFunction& map) {
     });
 }
 
-void planMethod(LayerPlan& plan, const Matter& matter, const scene::Accuracy& wish) {
+/// What is known of the method chosen.
+void planEvidence(LayerPlan& plan, std::span<const Evidence> evidence) {
+    const auto known = std::ranges::find(evidence, plan.method, &Evidence::integrator);
+    if (known == evidence.end()) return;
+    plan.predictedMs = known->predictedMs;
+    plan.errorBound = known->error;
+}
+
+void planMethod(LayerPlan& plan, const Matter& matter, const scene::Accuracy& wish,
+                std::span<const Evidence> evidence) {
     const bool constant = !varies(matter.field) && !(matter.second && varies(matter.second->field));
-    const Method method = chooseMethod(matter.layer, wish, constant);
+    const Method method = chooseMethod(matter.layer, wish, constant, evidence);
     plan.method = method.integrator;
+    planEvidence(plan, evidence);
     const bool choice = scene::row(matter.layer.model).integrators.size() > 1;
     if (choice) plan.integrator = scene::name(method.integrator);
     add(plan, kAccuracy, choice, method.reason);
@@ -196,12 +207,13 @@ void planMethod(LayerPlan& plan, const Matter& matter, const scene::Accuracy& wi
         uniform ? "the map has one colour: opacity alone is gathered" : "the map has colours");
 }
 
-void planMeshRays(LayerPlan& plan, const Matter& matter, const scene::Accuracy& wish) {
+void planMeshRays(LayerPlan& plan, const Matter& matter, const scene::Accuracy& wish,
+                  std::span<const Evidence> evidence) {
     plan.evaluator = evaluatorFor(matter.layer);
     const bool constant = !varies(matter.field);
     add(plan, kInterpolation, !constant,
         constant ? "one value a cell" : "values vary within a cell");
-    planMethod(plan, matter, wish);
+    planMethod(plan, matter, wish, evidence);
     planSecondField(plan, matter);
     if (plan.evaluator == Evaluator::kMeshWalk) {
         add(plan, kReEntry, !matter.summary.convex,
@@ -276,7 +288,7 @@ void planVoxels(LayerPlan& plan, const Matter& matter) {
 }
 
 LayerPlan planLayer(const scene::Scene& scene, const Layer& layer, const DatasetSummary& summary,
-                    bool hasSurfaces) {
+                    bool hasSurfaces, std::span<const Evidence> evidence) {
     Matter matter{.layer = layer,
                   .summary = summary,
                   .field = scene::mainField(layer, summary).field,
@@ -295,7 +307,7 @@ LayerPlan planLayer(const scene::Scene& scene, const Layer& layer, const Dataset
         return plan;
     }
     if (summary.isMesh) {
-        planMeshRays(plan, matter, scene.accuracy);
+        planMeshRays(plan, matter, scene.accuracy, evidence);
     } else {
         planVoxels(plan, matter);
     }
@@ -353,13 +365,17 @@ bool LayerPlan::has(const std::string& name) const {
         effects, [&](const Effect& effect) { return effect.name == name && effect.on; });
 }
 
-FramePlan plan(const scene::Scene& scene, const scene::Summaries& summaries) {
+FramePlan plan(const scene::Scene& scene, const scene::Summaries& summaries,
+               const SceneEvidence& evidence) {
     const bool hasSurfaces = std::ranges::any_of(scene.layers, [](const Layer& layer) {
         return layer.visible && scene::row(layer.model).opaque;
     });
     FramePlan frame;
     for (const Layer& layer : scene.layers) {
-        frame.layers.push_back(planLayer(scene, layer, summaries.at(layer.dataset), hasSurfaces));
+        const auto known = evidence.find(layer.id);
+        frame.layers.push_back(
+            planLayer(scene, layer, summaries.at(layer.dataset), hasSurfaces,
+                      known == evidence.end() ? std::span<const Evidence>{} : known->second));
     }
     shareWalks(scene, frame);
     frame.id = idOf(frame.layers);

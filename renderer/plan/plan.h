@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "renderer/plan/evidence.h"
 #include "renderer/scene/scene.h"
 
 namespace volcast::plan {
@@ -51,7 +52,9 @@ struct FramePlan {
 /// iterations without a word; what is left is for passing over bricks.
 inline constexpr int kMaxRaySamples = 60'000;
 
-/// `scene` must be valid against `summaries`.
-FramePlan plan(const scene::Scene& scene, const scene::Summaries& summaries);
+/// `scene` must be valid against `summaries`. `evidence` decides where the scene bounds error or
+/// time.
+FramePlan plan(const scene::Scene& scene, const scene::Summaries& summaries,
+               const SceneEvidence& evidence = {});
 
 }  // namespace volcast::plan

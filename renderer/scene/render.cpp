@@ -114,7 +114,8 @@ public:
     [[nodiscard]] const Counters& counters() const noexcept override { return counters_; }
 
     Result<FrameInfo> render(std::uint64_t view, const Scene& scene, PictureSize size,
-                             const FrameTarget& target) override;
+                             const FrameTarget& target,
+                             const plan::SceneEvidence& evidence) override;
 
 private:
     Result<Summaries> validated(const Scene& scene, PictureSize size, const FrameTarget& target);
@@ -158,14 +159,15 @@ Result<Summaries> DeviceRenderer::validated(const Scene& scene, PictureSize size
 }
 
 Result<FrameInfo> DeviceRenderer::render(std::uint64_t view, const Scene& scene, PictureSize size,
-                                         const FrameTarget& target) {
+                                         const FrameTarget& target,
+                                         const plan::SceneEvidence& evidence) {
     if (!device_.alive()) return fail(ErrorCode::kDeviceLost, "the device was given up");
     countWork();  // The device may have worked for others since the last call.
     const Counters before = counters_;
     const Result<Summaries> summaries = validated(scene, size, target);
     if (!summaries) return summaries.error();
     FrameInfo info;
-    info.plan = plan::plan(scene, *summaries);
+    info.plan = plan::plan(scene, *summaries, evidence);
     Frame frame;
     frame.view = &views_[view];
     frame.scene = &scene;

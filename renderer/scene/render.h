@@ -77,8 +77,14 @@ public:
     ///
     /// `scene` is validated here against the data. On an error the view is as it was.
     /// Errors: as scene::validate, and kShaderBuild, kOutOfGpuMemory, kDeviceLost.
+    /// `evidence`: as plan::plan() takes it.
     virtual Result<FrameInfo> render(std::uint64_t view, const Scene& scene, PictureSize size,
-                                     const FrameTarget& target) = 0;
+                                     const FrameTarget& target,
+                                     const plan::SceneEvidence& evidence) = 0;
+    Result<FrameInfo> render(std::uint64_t view, const Scene& scene, PictureSize size,
+                             const FrameTarget& target) {
+        return render(view, scene, size, target, {});
+    }
 
     /// Frees what `view` holds; unknown views are fine.
     virtual void dropView(std::uint64_t view) = 0;

@@ -40,6 +40,8 @@ void put(const plan::FramePlan& plan, internal::v1::Rendered* message) {
         added->set_integrator(layer.integrator);
         added->set_drawn(layer.drawn);
         added->set_drawn_with(layer.drawnWith);
+        if (layer.predictedMs) added->set_predicted_ms(*layer.predictedMs);
+        if (layer.errorBound) added->set_error_bound(*layer.errorBound);
         added->set_step_world(layer.stepWorld);
         for (const plan::Effect& effect : layer.effects) {
             internal::v1::Effect* entry = added->add_effects();
@@ -59,6 +61,8 @@ plan::FramePlan planFrom(const internal::v1::Rendered& message) {
         added.integrator = layer.integrator();
         added.drawn = layer.drawn();
         added.drawnWith = layer.drawn_with();
+        if (layer.has_predicted_ms()) added.predictedMs = layer.predicted_ms();
+        if (layer.has_error_bound()) added.errorBound = layer.error_bound();
         added.stepWorld = layer.step_world();
         for (const internal::v1::Effect& effect : layer.effects()) {
             added.effects.push_back(

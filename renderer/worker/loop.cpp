@@ -82,6 +82,7 @@ Result<void> Loop::handle(const wire::ToWorker& message, const Descriptors& desc
         }
         case wire::ToWorker::kRemoveDataset: {
             meter_.forget(message.remove_dataset().id());
+            evidence_.forget(message.remove_dataset().id());
             renderer_.removeDataset(message.remove_dataset().id());
             return {};
         }
@@ -108,6 +109,7 @@ Result<void> Loop::addDataset(const std::string& id, const Descriptors& descript
     wire::FromWorker answer;
     if (auto dataset = data::unpack(descriptors.front()); dataset) {
         meter_.forget(id);
+        evidence_.forget(id);
         renderer_.addDataset(id, *std::move(dataset));
         answer.mutable_dataset_added()->set_id(id);
         answer.mutable_dataset_added()->set_ms(millisecondsSince(start));
@@ -149,7 +151,9 @@ Result<wire::Rendered> Loop::draw(const wire::Render& request, const Descriptors
     if (!scene) return std::move(scene).error();
 
     const double cpuBefore = cpuMs();
-    auto info = renderer_.render(request.view(), *scene, size, *target);
+    const auto evidence = evidence_.of(*scene, size);
+    if (!evidence) return evidence.error();
+    auto info = renderer_.render(request.view(), *scene, size, *target, *evidence);
     if (!info) return std::move(info).error();
     wire::Rendered rendered;
     rendered.set_request(request.request());

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "renderer/accuracy/evidence.h"
 #include "renderer/accuracy/meter.h"
 #include "renderer/gpu/device.h"
 #include "renderer/scene/render.h"
@@ -17,8 +18,16 @@ namespace volcast::worker {
 /// pictures go. All on the device's thread.
 class Loop {
 public:
-    Loop(Channel& channel, gpu::Device& device, scene::Renderer& renderer) noexcept
-        : channel_{channel}, device_{device}, renderer_{renderer}, meter_{renderer} {}
+    /// `cacheFolder`: where what was measured of this machine is kept; empty: nowhere.
+    Loop(Channel& channel, gpu::Device& device, scene::Renderer& renderer,
+         const std::string& cacheFolder)
+        : channel_{channel},
+          device_{device},
+          renderer_{renderer},
+          meter_{renderer},
+          evidence_{renderer, meter_,
+                    accuracy::Costs{cacheFolder.empty() ? "" : cacheFolder + "/costs.txt",
+                                    device.info().glRenderer + " " + device.info().glVersion}} {}
 
     /// Until the server closes the channel or the device is lost.
     ExitCode run();
@@ -45,6 +54,7 @@ private:
     gpu::Device& device_;
     scene::Renderer& renderer_;
     accuracy::Meter meter_;
+    accuracy::EvidenceKeeper evidence_;
     Slots slots_;
     bool deviceLost_ = false;
 };

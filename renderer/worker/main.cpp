@@ -79,7 +79,7 @@ int serve(const worker::Options& options, Clock::time_point start) {
     ready.mutable_ready()->set_start_ms(
         std::chrono::duration<double, std::milli>(Clock::now() - start).count());
     if (!channel.send(ready)) return worker::kExitDone;
-    return worker::Loop{channel, **device, **renderer}.run();
+    return worker::Loop{channel, **device, **renderer, options.cacheFolder}.run();
 }
 
 }  // namespace

@@ -93,6 +93,11 @@ v1::FrameHeader ViewFrames::headerOf(const workers::RenderedFrame& frame,
     for (const plan::LayerPlan& layer : frame.plan.layers) {
         if (layer.drawn) header.add_integrators(layer.integrator);
     }
+    // The worst of the errors that were measured.
+    for (const plan::LayerPlan& layer : frame.plan.layers) {
+        if (!layer.errorBound) continue;
+        header.set_estimated_error(std::max(header.estimated_error(), *layer.errorBound));
+    }
     v1::Timings& timings = *header.mutable_timings();
     timings.set_wait_ms(msBetween(asked.inputAt, asked.at) + frame.waitMs);
     timings.set_upload_ms(frame.uploadMs);

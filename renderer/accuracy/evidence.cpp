@@ -1,0 +1,97 @@
+#include "renderer/accuracy/evidence.h"
+
+#include <algorithm>
+
+#include "renderer/plan/method.h"
+#include "renderer/scene/ray_models.h"
+
+namespace volcast::accuracy {
+namespace {
+
+constexpr std::uint64_t kPixels = 256;  // Compared, of a small picture of the same view.
+constexpr int kLongerSide = 96;
+constexpr std::size_t kMostKept = 16;
+
+/// What errors depend on, as far as they are kept.
+scene::Scene essence(scene::Scene scene) {
+    scene.camera = {};
+    scene.accuracy = {};
+    scene.background = {};
+    return scene;
+}
+
+scene::PictureSize smallOf(scene::PictureSize size) {
+    const int longer = std::max(size.x, size.y);
+    if (longer <= kLongerSide) return size;
+    return glm::max(size * kLongerSide / longer, scene::PictureSize{1});
+}
+
+}  // namespace
+
+Result<const EvidenceKeeper::Known*> EvidenceKeeper::known(const scene::Scene& scene,
+                                                           scene::PictureSize size,
+                                                           std::size_t layer) {
+    const bool withErrors = scene.accuracy.kind == scene::Accuracy::Kind::kErrorBound;
+    scene::Scene wanted = essence(scene);
+    const auto found = std::ranges::find_if(known_, [&](const Known& one) {
+        return one.layer == layer && (one.withErrors || !withErrors) && one.scene == wanted;
+    });
+    if (found != known_.end()) {
+        known_.splice(known_.begin(), known_, found);
+        return &known_.front();
+    }
+    Known made{.scene = std::move(wanted), .layer = layer, .withErrors = withErrors};
+    const scene::PictureSize small = smallOf(size);
+    const auto cells = meter_.cellsPerRay(scene, small, kPixels);
+    if (!cells) return cells.error();
+    made.cellsPerRay = *cells;
+    if (withErrors) {
+        for (const auto& row : scene::row(scene.layers[layer].model).integrators) {
+            const auto measured =
+                meter_.measure({.scene = scene,
+                                .size = small,
+                                .candidate = {.layer = layer, .integrator = row.integrator},
+                                .frames = 0,
+                                .pixels = kPixels});
+            if (!measured) return measured.error();
+            made.errors[row.integrator] = 255.0 * measured->inner.max;
+        }
+    }
+    known_.push_front(std::move(made));
+    if (known_.size() > kMostKept) known_.pop_back();
+    return &known_.front();
+}
+
+Result<plan::SceneEvidence> EvidenceKeeper::of(const scene::Scene& scene, scene::PictureSize size) {
+    plan::SceneEvidence evidence;
+    for (std::size_t i = 0; i < scene.layers.size(); ++i) {
+        const scene::Layer& layer = scene.layers[i];
+        if (!layer.visible || !plan::needsEvidence(layer, scene.accuracy)) continue;
+        const auto found = known(scene, size, i);
+        Result<void> costs = found ? costs_.prepare(renderer_) : Result<void>{found.error()};
+        if (!costs) {
+            if (costs.error().code == ErrorCode::kDeviceLost) return costs.error();
+            continue;  // Such as voxels, which have no reference: drawn as well as can be.
+        }
+        std::vector<plan::Evidence>& rows = evidence[layer.id];
+        for (const scene::IntegratorRow& row : scene::row(layer.model).integrators) {
+            plan::Evidence& one = rows.emplace_back();
+            one.integrator = row.integrator;
+            one.predictedMs =
+                costs_.predictMs({layer.model, row.integrator}, size, (*found)->cellsPerRay);
+            const auto error = (*found)->errors.find(row.integrator);
+            if (error != (*found)->errors.end()) one.error = error->second;
+        }
+    }
+    return evidence;
+}
+
+void EvidenceKeeper::forget(const std::string& dataset) {
+    std::erase_if(known_, [&dataset](const Known& one) {
+        return std::ranges::any_of(one.scene.layers, [&dataset](const scene::Layer& layer) {
+            return layer.dataset == dataset;
+        });
+    });
+}
+
+}  // namespace volcast::accuracy

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <list>
+#include <map>
+#include <string>
+#include <utility>
+
+#include "renderer/accuracy/meter.h"
+#include "renderer/plan/evidence.h"
+
+namespace volcast::accuracy {
+
+/// What the walk takes, by model and integrator, on this machine: a part for any picture and a part
+/// for each cell on each ray. Measured once, on pictures of two sizes, and kept in a file.
+class Costs {
+public:
+    using Key = std::pair<scene::RayModel, scene::Integrator>;
+
+    /// `file`: where costs are kept; empty: nowhere. `machine`: costs of another are not used.
+    Costs(std::string file, std::string machine)
+        : file_{std::move(file)}, machine_{std::move(machine)} {}
+
+    /// Measures on a small mesh of its own, with `renderer`, what the file does not hold.
+    ///
+    /// Errors: as Meter::measure. A file that cannot be written is left.
+    Result<void> prepare(scene::Renderer& renderer);
+    /// Milliseconds of a picture; needs prepare().
+    [[nodiscard]] double predictMs(const Key& key, scene::PictureSize size,
+                                   double cellsPerRay) const;
+
+private:
+    void load();
+    void save() const;
+    Result<void> measure(scene::Renderer& renderer);
+
+    std::string file_, machine_;
+    struct Cost {
+        double pictureMs = 0.0;
+        double cellNs = 0.0;
+    };
+
+    std::map<Key, Cost> costs_;
+};
+
+/// Gathers what plans need to know where a scene bounds error or time, and keeps it: errors hold
+/// for a scene whatever its camera, until its data, maps or models change.
+class EvidenceKeeper {
+public:
+    EvidenceKeeper(scene::Renderer& renderer, Meter& meter, Costs costs)
+        : renderer_{renderer}, meter_{meter}, costs_{std::move(costs)} {}
+
+    /// Empty where the scene bounds nothing. Layers that cannot be measured are left out.
+    ///
+    /// Errors: kDeviceLost.
+    Result<plan::SceneEvidence> of(const scene::Scene& scene, scene::PictureSize size);
+    /// To be called when the dataset is replaced or removed.
+    void forget(const std::string& dataset);
+
+private:
+    struct Known {
+        scene::Scene scene;  ///< Without camera and accuracy.
+        std::size_t layer = 0;
+        bool withErrors = false;
+        double cellsPerRay = 0.0;
+        std::map<scene::Integrator, double> errors = {};  ///< Largest, in 1/255.
+    };
+    Result<const Known*> known(const scene::Scene& scene, scene::PictureSize size,
+                               std::size_t layer);
+
+    scene::Renderer& renderer_;
+    Meter& meter_;
+    Costs costs_;
+    std::list<Known> known_;  ///< The last used first.
+};
+
+}  // namespace volcast::accuracy
