@@ -10,6 +10,7 @@ describe("a refusal", () => {
     expect(said("layers[0].levels.values", "an isosurface needs at least one level")).toBe(
       "Levels: an isosurface needs at least one level.",
     );
+    expect(said("layers[0].levels", "layers[0].levels.values: is empty")).toBe("Levels: is empty.");
     expect(said("accuracy.bound", "0.000000 is not above 0")).toBe("Accuracy: 0 is not above 0.");
     expect(said("layers[0].density_scale.domain", "1.500000 to -2.000000 is no range.")).toBe(
       "Domain of the second field's scale: 1.5 to -2 is no range.",

@@ -31,6 +31,9 @@ const kNames: readonly (readonly [RegExp, string])[] = [
   [/model/, "Ray model"],
 ];
 
+/** `layers[0].levels.count: `, which the server says for scripts, once or twice. */
+const kLeadingPaths = /^([a-z_]+(\[\d+\])?(\.[a-z_]+(\[\d+\])?)*: )+/;
+
 /** "-0.500000" and "3.000000" as people write them. */
 const plainNumbers = (text: string): string =>
   text.replace(/(\d+)\.(\d*?)0+(?!\d)/g, (_, whole: string, rest: string) =>
@@ -39,7 +42,7 @@ const plainNumbers = (text: string): string =>
 
 /** The server's reason as a sentence that names the setting as the panel does. */
 export function sentenceOf({ field, message }: Pick<Refusal, "field" | "message">): string {
-  const said = message.startsWith(`${field}: `) ? message.slice(field.length + 2) : message;
+  const said = field ? message.replace(kLeadingPaths, "") : message;
   const name = kNames.find(([path]) => path.test(field))?.[1] ?? field;
   const text = plainNumbers(said.trim() || "the server refused this");
   const end = /[.!?]$/.test(text) ? "" : ".";
