@@ -132,7 +132,6 @@ function onEdit(value: ReadonlySignal<unknown>, react: () => void): void {
   });
 }
 
-onEdit(state.scene, () => session.mark("scene"));
 onEdit(
   computed(() => state.edit.value.present),
   () => session.mark("scene"),

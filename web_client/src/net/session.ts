@@ -1,6 +1,7 @@
 import { create, fromBinary, type MessageInitShape, toBinary } from "@bufbuild/protobuf";
-import { type AppState, notify } from "../state/app_state";
+import { type AppState, type Edit, notify } from "../state/app_state";
 import type { ViewDocument } from "../state/document";
+import { sentenceOf } from "../state/refusal";
 import { cameraMessage, sceneMessage } from "../state/scene_message";
 import { Connection } from "./connection";
 import { decodeFrame, type Frame, isFrame, kMajor, kMinor } from "./framing";
@@ -65,6 +66,8 @@ export class Session {
   #greeted = false;
   /** Asked for and not opened yet. */
   #wish: Wish | undefined;
+  /** The newest settings that were sent, and the Update they went with. */
+  #sentEdit: { readonly inputSeq: bigint; readonly edit: Edit } | undefined;
 
   constructor(url: string, state: AppState, events: SessionEvents) {
     this.#state = state;
@@ -179,7 +182,8 @@ export class Session {
   }
 
   #sendUpdate(dirty: Readonly<Dirty>, inputSeq: bigint): boolean {
-    const { scene, orbit, bounds, edit, viewport } = this.#state;
+    const { scene, orbit, bounds, viewport } = this.#state;
+    const edit = this.#state.edit.value.present;
     const view = this.#view;
     if (view === undefined || !scene.value || !orbit.value) return false;
     const sent = this.#send({
@@ -187,15 +191,15 @@ export class Session {
       value: {
         view,
         inputSeq,
-        scene: dirty.scene
-          ? sceneMessage(scene.value, orbit.value, bounds.value, edit.value.present)
-          : undefined,
+        scene: dirty.scene ? sceneMessage(scene.value, orbit.value, bounds.value, edit) : undefined,
         camera: dirty.camera && !dirty.scene ? cameraMessage(orbit.value, bounds.value) : undefined,
         viewport: dirty.viewport ? viewport.value : undefined,
       },
     });
-    if (sent) this.#state.newestInput.value = inputSeq;
-    return sent;
+    if (!sent) return false;
+    this.#state.newestInput.value = inputSeq;
+    if (dirty.scene) this.#sentEdit = { inputSeq, edit };
+    return true;
   }
 
   #received(message: Uint8Array<ArrayBuffer>): void {
@@ -215,7 +219,17 @@ export class Session {
       return;
     }
     this.#pacer.answered(frame.header.inputSeq);
+    this.#accepted(frame.header.inputSeq);
     this.#events.frame(frame, receivedAt);
+  }
+
+  /** A picture of `inputSeq` is there: settings up to it were taken, if they were not refused. */
+  #accepted(inputSeq: bigint): void {
+    const { refusal, accepted } = this.#state;
+    const sent = this.#sentEdit;
+    if (!sent || inputSeq < sent.inputSeq || sent.inputSeq === refusal.value?.inputSeq) return;
+    accepted.value = sent.edit;
+    refusal.value = undefined;
   }
 
   #handle({ body }: ServerMessage): void {
@@ -263,6 +277,11 @@ export class Session {
     if (before !== undefined) this.#close(before);
     if (!opening.document) this.#events.opened(scene);
     else if (!opening.shown) this.#events.restored(opening.document);
+    if (!opening.shown) {
+      this.#sentEdit = undefined;
+      this.#state.refusal.value = undefined;
+      this.#state.accepted.value = this.#state.edit.value.present;
+    }
     this.#pacer.answered(0n); // Changes from before the view was open may leave now.
   }
 
@@ -279,10 +298,19 @@ export class Session {
 
   #error(error: ErrorMessage): void {
     if (error.inputSeq > 0n) this.#pacer.answered(error.inputSeq);
-    const where = error.field ? ` (${error.field})` : "";
-    const text = `${error.message || "The server refused a message"}${where}`;
+    const text = sentenceOf(error);
     if (this.#opening && error.view === this.#opening.view) this.#giveUpOpening(text);
-    else if (!this.#isListed(error.dataset)) notify(this.#state, "error", text);
+    else if (this.#refusesSettings(error)) {
+      const { inputSeq, field, message } = error;
+      this.#state.refusal.value = { inputSeq, field, message };
+      this.mark("camera"); // Both may have been parts of the refused update.
+      this.mark("viewport");
+    } else if (!this.#isListed(error.dataset)) notify(this.#state, "error", text);
+  }
+
+  /** The newest settings are not drawn; what was drawn before them stays. */
+  #refusesSettings({ view, field, inputSeq }: ErrorMessage): boolean {
+    return view === this.#view && field !== "" && inputSeq === this.#sentEdit?.inputSeq;
   }
 
   /** The list shows this dataset's failure itself. */

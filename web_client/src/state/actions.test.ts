@@ -11,19 +11,19 @@ import { dragged } from "../view/camera";
 import {
   adoptScene,
   changeDensity,
-  changeField,
   changeLayer,
   changeMap,
+  changeScene,
   currentDocument,
   modelsOf,
+  redo,
   refitCamera,
   resetCamera,
   restoreDocument,
   undo,
-  usesColours,
-  usesExtinction,
 } from "./actions";
 import { createAppState } from "./app_state";
+import { changeField, chooseModel } from "./layer_actions";
 
 const dataset = create(DatasetInfoSchema, {
   id: "d",
@@ -118,23 +118,34 @@ describe("models", () => {
     state.datasets.value = [{ ...dataset, kind: DatasetKind.VOLUME }];
     expect(modelsOf(state)).toEqual([RayModel.MIP]);
   });
+});
 
-  it("say what of the map they use", () => {
+describe("undo", () => {
+  it("goes back over every setting, and never over the camera", () => {
     const state = opened();
-    expect([usesColours(state.layer.value), usesExtinction(state.layer.value)]).toEqual([
-      true,
-      true,
-    ]);
-    changeLayer(state, { model: RayModel.MIP });
-    expect([usesColours(state.layer.value), usesExtinction(state.layer.value)]).toEqual([
-      true,
-      false,
-    ]);
-    changeLayer(state, { model: RayModel.SURFACE });
-    expect(usesColours(state.layer.value)).toBe(false);
-    changeLayer(state, { coloured: true });
-    expect(usesColours(state.layer.value)).toBe(true);
+    const before = state.edit.value.present;
+    chooseModel(state, RayModel.XRAY);
+    changeLayer(state, { extinctionScale: 2 });
+    changeScene(state, { clipPlanes: [] });
+    const orbit = state.orbit.value && dragged(state.orbit.value, 10, 0, 0.01);
+    state.orbit.value = orbit;
+    undo(state);
+    undo(state);
+    expect(state.layer.value?.model).toBe(RayModel.XRAY);
+    expect(state.layer.value?.extinctionScale).toBeUndefined();
+    undo(state);
+    expect(state.edit.value.present).toBe(before);
+    expect(state.orbit.value).toBe(orbit);
+    redo(state);
+    expect(state.layer.value?.model).toBe(RayModel.XRAY);
     expect(scene.layers[0]?.model).toBe(RayModel.VOLUME);
+  });
+
+  it("takes all of a drag for one step", () => {
+    const state = opened();
+    for (const exposure of [1, 2, 3]) changeLayer(state, { exposure }, "Exposure");
+    undo(state);
+    expect(state.layer.value?.exposure).toBe(0);
   });
 });
 
@@ -150,5 +161,15 @@ describe("a document", () => {
     expect(state.layer.value?.model).toBe(RayModel.VOLUME);
     undo(state);
     expect(state.edit.value.present.density).toBe(2);
+  });
+
+  it("leaves out what the server refused", () => {
+    const state = opened();
+    state.accepted.value = state.edit.value.present;
+    changeLayer(state, { exposure: 1000 });
+    state.refusal.value = { inputSeq: 2n, field: "layers[0].exposure", message: "too much" };
+    expect(currentDocument(state)?.scene.layers[0]?.exposure).toBe(0);
+    state.refusal.value = undefined;
+    expect(currentDocument(state)?.scene.layers[0]?.exposure).toBe(1000);
   });
 });

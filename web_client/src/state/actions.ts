@@ -2,17 +2,19 @@ import { create } from "@bufbuild/protobuf";
 import {
   type Layer,
   LayerSchema,
-  RayModel,
+  type RayModel,
   type Scene,
   SceneSchema,
 } from "../net/gen/volcast/v1/scene_pb";
-import { DatasetKind } from "../net/gen/volcast/v1/session_pb";
+import { DatasetKind, type FieldInfo } from "../net/gen/volcast/v1/session_pb";
 import { defaultMap } from "../transfer/presets";
-import { scaled, stretched, type TransferFunction } from "../transfer/transfer_function";
+import { type Axis, axisOf, kStraight } from "../transfer/scale";
+import { scaled, type TransferFunction } from "../transfer/transfer_function";
 import { fitted } from "../view/camera";
-import type { AppState, MapEdit } from "./app_state";
+import type { AppState, Edit, MapEdit } from "./app_state";
 import type { ViewDocument } from "./document";
 import { changed, gestureEnded, redone, startHistory, undone } from "./history";
+import type { Slot } from "./models";
 import { mapOf, orbitOf } from "./scene_message";
 
 /** The ray models that the server draws for the shown kind of data. */
@@ -22,62 +24,74 @@ export function modelsOf(state: AppState): readonly RayModel[] {
   return welcome?.meshModels ?? [];
 }
 
-/** True where the picture depends on the map's extinction. */
-export function usesExtinction(layer: Layer | undefined): boolean {
-  return layer?.model === RayModel.VOLUME || layer?.model === RayModel.UNSPECIFIED;
+export const isMesh = (state: AppState): boolean => state.dataset.value?.kind === DatasetKind.MESH;
+
+/** One step that can be undone; changes of one `gesture` are one step. */
+export function changeEdit(state: AppState, part: Partial<Edit>, gesture?: string): void {
+  const { present } = state.edit.value;
+  state.edit.value = changed(state.edit.value, { ...present, ...part }, gesture);
 }
 
-/** True where the picture depends on the map's colours. */
-export function usesColours(layer: Layer | undefined): boolean {
-  return layer?.model !== RayModel.SURFACE || layer.coloured;
-}
-
-/** Changes parts of the first layer. */
-export function changeLayer(state: AppState, part: Partial<Layer>): void {
-  const scene = state.scene.value;
-  const layer = scene?.layers[0];
-  if (!scene || !layer) return;
-  const next = create(LayerSchema, { ...layer, ...part });
-  state.scene.value = create(SceneSchema, {
+/** The scene with parts of its first layer changed. */
+export function withLayer(scene: Scene, part: Partial<Layer>): Scene {
+  return create(SceneSchema, {
     ...scene,
-    layers: scene.layers.map((l, i) => (i === 0 ? next : l)),
+    layers: scene.layers.map((l, i) => (i === 0 ? create(LayerSchema, { ...l, ...part }) : l)),
   });
 }
 
-export function changeScene(state: AppState, part: Partial<Scene>): void {
+/** Changes parts of the first layer. */
+export function changeLayer(state: AppState, part: Partial<Layer>, gesture?: string): void {
   const scene = state.scene.value;
-  if (scene) state.scene.value = create(SceneSchema, { ...scene, ...part });
+  if (scene?.layers[0]) changeEdit(state, { scene: withLayer(scene, part) }, gesture);
 }
 
-/** Maps of fields that were left, to come back to; by dataset and field. */
-const leftMaps = new Map<string, MapEdit>();
-const key = (dataset: string, field: string): string => JSON.stringify([dataset, field]);
-
-/** Shows another field; its map is the one it had, or the shown one over the field's range. */
-export function changeField(state: AppState, name: string): void {
-  const dataset = state.dataset.value;
-  const next = dataset?.fields.find((f) => f.name === name);
-  const before = state.field.value;
-  if (!dataset || !next || !before || next.name === before.name) return;
-  const edit = state.edit.value.present;
-  leftMaps.set(key(dataset.id, before.name), edit);
-  const kept = leftMaps.get(key(dataset.id, name));
-  const map = next.max > next.min ? stretched(edit.map, next.min, next.max) : [];
-  const fresh = map.length > 1 ? map : defaultMap(next.min, next.max, state.referenceLength.value);
-  state.edit.value = startHistory(kept ?? { map: fresh, density: edit.density });
-  changeLayer(state, { field: name, timeStep: 0 });
+export function changeScene(state: AppState, part: Partial<Scene>, gesture?: string): void {
+  const scene = state.scene.value;
+  if (scene) changeEdit(state, { scene: create(SceneSchema, { ...scene, ...part }) }, gesture);
 }
 
-/** Changes the map; changes of one `gesture` are undone together. */
-export function changeMap(state: AppState, map: TransferFunction, gesture?: string): void {
+export function fieldOf(state: AppState, slot: Slot): FieldInfo | undefined {
+  return slot === "first" ? state.field.value : state.secondField.value;
+}
+
+const kNoMap: MapEdit = { map: [], density: 1 };
+
+/** The map of a slot; without points where there is none. */
+export function mapEditOf(state: AppState, slot: Slot = "first"): MapEdit {
   const { present } = state.edit.value;
-  if (map === present.map) return;
-  state.edit.value = changed(state.edit.value, { ...present, map }, gesture);
+  return slot === "first" ? present : (present.second ?? kNoMap);
 }
 
-export function changeDensity(state: AppState, density: number, gesture?: string): void {
-  const { present } = state.edit.value;
-  state.edit.value = changed(state.edit.value, { ...present, density }, gesture);
+/** How a slot's values are laid out: what the map is straight in. */
+export function axisOfSlot(state: AppState, slot: Slot = "first"): Axis {
+  const field = fieldOf(state, slot);
+  const layer = state.layer.value;
+  const scale = slot === "first" ? layer?.scale : layer?.densityScale;
+  return field ? axisOf(scale, field.min, field.max) : kStraight;
+}
+
+const asPart = (slot: Slot, { map, density }: MapEdit): Partial<Edit> =>
+  slot === "first" ? { map, density } : { second: { map, density } };
+
+/** Changes a map; changes of one `gesture` are undone together. */
+export function changeMap(
+  state: AppState,
+  map: TransferFunction,
+  gesture?: string,
+  slot: Slot = "first",
+): void {
+  const edit = mapEditOf(state, slot);
+  if (map !== edit.map) changeEdit(state, asPart(slot, { ...edit, map }), gesture);
+}
+
+export function changeDensity(
+  state: AppState,
+  density: number,
+  gesture?: string,
+  slot: Slot = "first",
+): void {
+  changeEdit(state, asPart(slot, { ...mapEditOf(state, slot), density }), gesture);
 }
 
 export function endGesture(state: AppState): void {
@@ -92,17 +106,22 @@ export function redo(state: AppState): void {
   state.edit.value = redone(state.edit.value);
 }
 
-/** The map that a field starts with, as one step that can be undone. */
-export function resetMap(state: AppState): void {
-  const field = state.field.value;
-  if (!field) return;
-  const map = defaultMap(field.min, field.max, state.referenceLength.value);
-  state.edit.value = changed(state.edit.value, { map, density: 1 });
+/** The map that a field starts with, over what its scale shows. */
+export function freshMap(state: AppState, field: FieldInfo, axis: Axis = kStraight): MapEdit {
+  const low = Math.max(field.min, axis.low);
+  const high = Math.min(field.max, axis.high);
+  return { map: defaultMap(low, high, state.referenceLength.value), density: 1 };
+}
+
+/** Starts a map over, as one step that can be undone. */
+export function resetMap(state: AppState, slot: Slot = "first"): void {
+  const field = fieldOf(state, slot);
+  if (field) changeEdit(state, asPart(slot, freshMap(state, field, axisOfSlot(state, slot))));
 }
 
 /** Extinction as drawn: the map's times the density. */
-export function drawnMap(state: AppState): TransferFunction {
-  const { map, density } = state.edit.value.present;
+export function drawnMap(state: AppState, slot: Slot = "first"): TransferFunction {
+  const { map, density } = mapEditOf(state, slot);
   return density === 1 ? map : scaled(map, density);
 }
 
@@ -129,30 +148,37 @@ export function refitCamera(state: AppState): void {
 
 /** Takes over a scene that the server made. */
 export function adoptScene(state: AppState, scene: Scene): void {
-  state.scene.value = scene;
-  const map = mapOf(scene.layers[0]?.transferFunction);
-  const field = state.field.value;
-  const usable = map.length > 1 || !field;
-  state.edit.value = startHistory({
-    map: usable ? map : defaultMap(field.min, field.max, state.referenceLength.value),
+  const layer = scene.layers[0];
+  const second = mapOf(layer?.densityFunction);
+  const edit = {
+    scene,
+    map: mapOf(layer?.transferFunction),
     density: 1,
-  });
+    second: second.length > 1 ? { map: second, density: 1 } : undefined,
+  };
+  state.edit.value = startHistory(edit);
+  const field = state.field.value;
+  if (edit.map.length <= 1 && field) {
+    state.edit.value = startHistory({ ...edit, ...freshMap(state, field) });
+  }
   if (!scene.camera) return;
   state.home.value = orbitOf(scene.camera);
   resetCamera(state);
 }
 
+/** What is shown; settings that the server refused are no part of it. */
 export function currentDocument(state: AppState): ViewDocument | undefined {
-  const scene = state.scene.value;
   const orbit = state.orbit.value;
   const home = state.home.value;
+  const drawn = state.refusal.value ? state.accepted.value : undefined;
+  const { scene, map, density, second } = drawn ?? state.edit.value.present;
   if (!scene || !orbit || !home) return undefined;
-  return { scene, orbit, home, edit: state.edit.value.present };
+  return { scene, orbit, home, edit: { map, density, second } };
 }
 
 export function restoreDocument(state: AppState, document: ViewDocument): void {
-  state.scene.value = document.scene;
-  state.orbit.value = document.orbit;
-  state.home.value = document.home;
-  if (state.edit.value.present !== document.edit) state.edit.value = startHistory(document.edit);
+  const { scene, orbit, home, edit } = document;
+  state.orbit.value = orbit;
+  state.home.value = home;
+  state.edit.value = startHistory({ ...edit, scene });
 }

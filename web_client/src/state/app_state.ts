@@ -35,6 +35,25 @@ export interface MapEdit {
   readonly density: number;
 }
 
+/** The maps of the first layer: of its field, and of its second field where it has one. */
+export interface Maps extends MapEdit {
+  readonly second?: MapEdit | undefined;
+}
+
+/** All that undo goes back over: everything but the camera. */
+export interface Edit extends Maps {
+  /** Its camera, and the maps of its first layer, are replaced when it is sent. */
+  readonly scene: Scene | undefined;
+}
+
+/** An update that the server refused; what it drew before stays. */
+export interface Refusal {
+  readonly inputSeq: bigint;
+  /** Path in the scene: `layers[0].levels.count`; may be empty. */
+  readonly field: string;
+  readonly message: string;
+}
+
 /** A sentence for the user that waits until it is read. */
 export interface Notice {
   readonly id: number;
@@ -53,7 +72,10 @@ const point = (v: { x: number; y: number; z: number } | undefined): Vec3 =>
 /** Everything the parts share. They read and write these signals and do not know each other. */
 export function createAppState() {
   const datasets = signal<readonly DatasetInfo[]>([]);
-  const scene = signal<Scene | undefined>(undefined);
+  const edit = signal<History<Edit>>(
+    startHistory({ map: [], density: 1, second: undefined, scene: undefined }),
+  );
+  const scene = computed<Scene | undefined>(() => edit.value.present.scene);
   const layer = computed<Layer | undefined>(() => scene.value?.layers[0]);
   const dataset = computed<DatasetInfo | undefined>(() =>
     datasets.value.find((d) => d.id === layer.value?.dataset),
@@ -62,6 +84,9 @@ export function createAppState() {
     const fields = dataset.value?.fields ?? [];
     return fields.find((f) => f.name === layer.value?.field) ?? fields[0];
   });
+  const secondField = computed<FieldInfo | undefined>(() =>
+    dataset.value?.fields.find((f) => f.name === layer.value?.densityField),
+  );
   const bounds = computed<Bounds | undefined>(() => {
     const d = dataset.value;
     if (!d?.boundsMin || !d.boundsMax) return undefined;
@@ -82,11 +107,15 @@ export function createAppState() {
     layer,
     dataset,
     field,
+    secondField,
     bounds,
     referenceLength,
     orbit: signal<Orbit | undefined>(undefined),
     home: signal<Orbit | undefined>(undefined),
-    edit: signal<History<MapEdit>>(startHistory({ map: [], density: 1 })),
+    edit,
+    refusal: signal<Refusal | undefined>(undefined),
+    /** The settings that the server took last: what a refusal leaves on the screen. */
+    accepted: signal<Edit | undefined>(undefined),
     viewport: signal<ViewportSize | undefined>(undefined),
     picture: signal<PictureInfo | undefined>(undefined),
     newestInput: signal(0n),

@@ -27,6 +27,18 @@ describe("badge", () => {
     expect(badgeOf(state, 0).kind).toBe("live");
   });
 
+  it("says that the settings are not those of the picture, whatever the picture is", () => {
+    const state = connected();
+    const field = "layers[0].exposure";
+    state.refusal.value = { inputSeq: 5n, field, message: `${field}: 99 is too much` };
+    expect(badgeOf(state, 0)).toMatchObject({
+      kind: "refused",
+      detail: "Exposure: 99 is too much.",
+    });
+    state.view.value = { state: ViewState.FAILED, message: "out of memory" };
+    expect(badgeOf(state, 0).kind).toBe("failed");
+  });
+
   it("puts trouble before everything else", () => {
     const state = connected();
     state.view.value = { state: ViewState.FAILED, message: "out of memory" };

@@ -1,5 +1,6 @@
 import { ViewState } from "../net/gen/volcast/v1/session_pb";
 import type { AppState } from "./app_state";
+import { sentenceOf } from "./refusal";
 
 export type BadgeKind =
   | "connecting"
@@ -9,6 +10,7 @@ export type BadgeKind =
   | "final"
   | "recovering"
   | "reconnecting"
+  | "refused"
   | "failed";
 
 /** What the user should know about the picture right now. */
@@ -18,7 +20,7 @@ export interface Badge {
   readonly detail: string;
 }
 
-type Facts = Pick<AppState, "connection" | "view" | "picture" | "newestInput">;
+type Facts = Pick<AppState, "connection" | "view" | "picture" | "newestInput" | "refusal">;
 
 /** Reads signals, so that whoever shows it follows them; `now` on performance.now()'s clock. */
 export function badgeOf(state: Facts, now: number): Badge {
@@ -38,6 +40,10 @@ export function badgeOf(state: Facts, now: number): Badge {
   }
   if (view?.state === ViewState.FAILED) {
     return { kind: "failed", label: "Not drawn", detail: view.message };
+  }
+  const refusal = state.refusal.value;
+  if (refusal) {
+    return { kind: "refused", label: "Not as set", detail: sentenceOf(refusal) };
   }
   const picture = state.picture.value;
   if (view?.state === ViewState.WAITING || !picture) {

@@ -1,14 +1,14 @@
 import { fromBinary, toBinary } from "@bufbuild/protobuf";
 import { type Scene, SceneSchema } from "../net/gen/volcast/v1/scene_pb";
 import type { Orbit } from "../view/camera";
-import type { MapEdit } from "./app_state";
+import type { MapEdit, Maps } from "./app_state";
 
 /** A view with all that the user did to it: what a reload, or a return to a dataset, restores. */
 export interface ViewDocument {
   readonly scene: Scene;
   readonly orbit: Orbit;
   readonly home: Orbit;
-  readonly edit: MapEdit;
+  readonly edit: Maps;
 }
 
 const kVersion = 1;
@@ -33,6 +33,11 @@ function isOrbit(value: unknown): value is Orbit {
   );
 }
 
+const isMap = (value: unknown): value is MapEdit => {
+  const m = value as Partial<MapEdit> | null | undefined;
+  return !!m && Array.isArray(m.map) && Number.isFinite(m.density);
+};
+
 /** Reads what writeDocument wrote; undefined for anything else. */
 export function readDocument(text: string | null): ViewDocument | undefined {
   if (!text) return undefined;
@@ -43,10 +48,11 @@ export function readDocument(text: string | null): ViewDocument | undefined {
     >;
     if (raw.version !== kVersion || typeof raw.scene !== "string") return undefined;
     if (!isOrbit(raw.orbit) || !isOrbit(raw.home)) return undefined;
-    if (!Array.isArray(raw.edit?.map) || !Number.isFinite(raw.edit.density)) return undefined;
+    const { map, density, second } = raw.edit;
+    if (!isMap(raw.edit) || !(second === undefined || isMap(second))) return undefined;
     const bytes = Uint8Array.from(atob(raw.scene), (c) => c.charCodeAt(0));
     const scene = fromBinary(SceneSchema, bytes);
-    return { scene, orbit: raw.orbit, home: raw.home, edit: raw.edit };
+    return { scene, orbit: raw.orbit, home: raw.home, edit: { map, density, second } };
   } catch {
     return undefined;
   }

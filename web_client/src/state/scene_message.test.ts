@@ -39,6 +39,13 @@ describe("scene message", () => {
     expect(map).toEqual([{ value: 0.1, colour: white, extinction: 1.5 }]);
   });
 
+  it("sends the second field's map, where there is one", () => {
+    const second = { map: [{ value: 7, colour: white, extinction: 2 }], density: 3 };
+    const scene = sceneMessage(base, orbit, undefined, { ...edit, second });
+    expect(mapOf(scene.layers[0]?.densityFunction)[0]).toMatchObject({ value: 7, extinction: 6 });
+    expect(scene.layers[1]?.densityFunction).toBeUndefined();
+  });
+
   it("leaves the server's map where there is none to send", () => {
     const scene = sceneMessage(base, orbit, undefined, { map: [], density: 1 });
     expect(scene.layers[0]?.transferFunction).toBeUndefined();
@@ -63,6 +70,15 @@ describe("view document", () => {
     expect(read?.home.yaw).toBe(0);
     expect(read?.edit).toEqual(edit);
     expect(read?.scene).toEqual(base);
+  });
+
+  it("keeps the second map, and reads documents from before there was one", () => {
+    const second = { map: edit.map, density: 2 };
+    const read = readDocument(writeDocument({ ...document, edit: { ...edit, second } }));
+    expect(read?.edit.second).toEqual(second);
+    expect(readDocument(writeDocument(document))?.edit.second).toBeUndefined();
+    const odd = { ...edit, second: { map: "x" } } as unknown as typeof edit;
+    expect(readDocument(writeDocument({ ...document, edit: odd }))).toBeUndefined();
   });
 
   it("refuses what it did not write", () => {

@@ -11,7 +11,7 @@ import {
 import { scaled, type TransferFunction } from "../transfer/transfer_function";
 import { type Bounds, type Orbit, orbitFrom, poseFrom } from "../view/camera";
 import type { Vec3 } from "../view/vec3";
-import type { MapEdit } from "./app_state";
+import type { MapEdit, Maps } from "./app_state";
 
 const message = (v: Vec3) => ({ x: v[0], y: v[1], z: v[2] });
 const vector = (v: { x: number; y: number; z: number } | undefined): Vec3 =>
@@ -52,20 +52,29 @@ export function mapOf(message: TransferFunctionMessage | undefined): TransferFun
   }));
 }
 
-/** The whole scene as it is sent: `base` with this camera, and this map in its first layer. */
+const drawnMessage = (edit: MapEdit | undefined): TransferFunctionMessage | undefined =>
+  edit && edit.map.length > 0 ? mapMessage(scaled(edit.map, edit.density)) : undefined;
+
+/** The whole scene as it is sent: `base` with this camera, and these maps in its first layer. */
 export function sceneMessage(
   base: Scene,
   orbit: Orbit,
   bounds: Bounds | undefined,
-  edit: MapEdit,
+  edit: Maps,
 ): Scene {
-  const transferFunction =
-    edit.map.length > 0 ? mapMessage(scaled(edit.map, edit.density)) : undefined;
+  const transferFunction = drawnMessage(edit);
+  const densityFunction = drawnMessage(edit.second);
   return create(SceneSchema, {
     ...base,
     camera: cameraMessage(orbit, bounds),
     layers: base.layers.map((layer, i) =>
-      i === 0 ? { ...layer, transferFunction: transferFunction ?? layer.transferFunction } : layer,
+      i === 0
+        ? {
+            ...layer,
+            transferFunction: transferFunction ?? layer.transferFunction,
+            densityFunction: densityFunction ?? layer.densityFunction,
+          }
+        : layer,
     ),
   });
 }

@@ -1,3 +1,4 @@
+import { type Along, kStraight } from "./scale";
 import { type Colour, mixColour } from "./srgb";
 
 /** One point of the map: value in the field's unit, linear colour, extinction per world unit. */
@@ -15,8 +16,12 @@ const replaced = (map: TransferFunction, index: number, point: Point): TransferF
 
 const clamp = (x: number, low: number, high: number): number => Math.min(high, Math.max(low, x));
 
-/** What the map gives at `value`: exactly what the renderer draws there. */
-export function sampleAt(map: TransferFunction, value: number): Point {
+/** What the map, straight in `along`, gives at `value`: exactly what the renderer draws there. */
+export function sampleAt(
+  map: TransferFunction,
+  value: number,
+  along: Along = kStraight.along,
+): Point {
   const first = map[0];
   const last = map[map.length - 1];
   if (!first || !last) return { value, colour: { r: 1, g: 1, b: 1 }, extinction: 0 };
@@ -25,8 +30,8 @@ export function sampleAt(map: TransferFunction, value: number): Point {
   const at = map.findIndex((p) => p.value >= value);
   const far = map[at] ?? last;
   const near = map[at - 1] ?? first;
-  const span = far.value - near.value;
-  const t = span > 0 ? (value - near.value) / span : 1;
+  const span = along(far.value) - along(near.value);
+  const t = span > 0 ? (along(value) - along(near.value)) / span : 1;
   return {
     value,
     colour: mixColour(near.colour, far.colour, t),
@@ -38,12 +43,13 @@ export function sampleAt(map: TransferFunction, value: number): Point {
 export function withPointAt(
   map: TransferFunction,
   value: number,
+  along: Along = kStraight.along,
 ): { map: TransferFunction; index: number } {
   const same = map.findIndex((p) => p.value === value);
   if (same >= 0) return { map, index: same };
   const after = map.findIndex((p) => p.value > value);
   const index = after < 0 ? map.length : after;
-  return { map: [...map.slice(0, index), sampleAt(map, value), ...map.slice(index)], index };
+  return { map: [...map.slice(0, index), sampleAt(map, value, along), ...map.slice(index)], index };
 }
 
 /** Removes an inner point; the ends stay, they carry the map's range. */

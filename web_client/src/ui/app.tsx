@@ -1,14 +1,20 @@
 import { type Signal, useSignal } from "@preact/signals";
+import { redo, undo } from "../state/actions";
 import type { AppState } from "../state/app_state";
+import { AccuracyPanel } from "./accuracy_panel";
+import { BackgroundPicker } from "./background_picker";
 import { BadgeView } from "./badge";
+import { ClipEditor } from "./clip_editor";
 import { DataList } from "./data_list";
+import { FieldPicker } from "./field_picker";
 import { Help } from "./help";
 import { Icon, IconButton } from "./icons";
 import { MapEditor } from "./map_editor";
-import { BackgroundPicker, FieldPicker, ModelPicker } from "./model_picker";
+import { ModelPicker } from "./model_picker";
 import { Notices } from "./notices";
 import type { AppPort } from "./port";
 import { Readout } from "./readout";
+import { RefusalNote } from "./refusal_note";
 
 interface Props {
   readonly state: AppState;
@@ -48,6 +54,28 @@ function Tools({ state, port, helpOpen }: Omit<Props, "picture">) {
   );
 }
 
+function Steps({ state }: { readonly state: AppState }) {
+  const { past, future } = state.edit.value;
+  return (
+    <div class="steps">
+      <IconButton
+        icon="undo"
+        label="Undo"
+        shortcut="Control+Z"
+        disabled={past.length === 0}
+        onClick={() => undo(state)}
+      />
+      <IconButton
+        icon="redo"
+        label="Redo"
+        shortcut="Control+Shift+Z"
+        disabled={future.length === 0}
+        onClick={() => redo(state)}
+      />
+    </div>
+  );
+}
+
 function Footer({ state }: { readonly state: AppState }) {
   const welcome = state.welcome.value;
   return (
@@ -77,6 +105,7 @@ export function App({ state, port, helpOpen, picture }: Props) {
         <header class="panel-head">
           <h1>Volcast</h1>
           <BadgeView state={state} port={port} />
+          <Steps state={state} />
           <button
             type="button"
             class="icon-button sheet-toggle"
@@ -90,11 +119,15 @@ export function App({ state, port, helpOpen, picture }: Props) {
             <Icon name={open.value ? "down" : "up"} />
           </button>
         </header>
+        <RefusalNote state={state} />
         <div id="panel-body" class="panel-body">
           <DataList state={state} port={port} />
           <ModelPicker state={state} />
           <FieldPicker state={state} />
-          <MapEditor state={state} />
+          <MapEditor state={state} slot="first" />
+          <MapEditor state={state} slot="second" />
+          <AccuracyPanel state={state} />
+          <ClipEditor state={state} />
           <BackgroundPicker state={state} />
           <Footer state={state} />
         </div>

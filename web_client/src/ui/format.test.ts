@@ -6,6 +6,7 @@ import {
   formatNumber,
   formatValue,
   parseNumber,
+  parseNumbers,
 } from "./format";
 
 describe("numbers for people", () => {
@@ -38,5 +39,11 @@ describe("numbers for people", () => {
     expect(parseNumber("")).toBeUndefined();
     expect(parseNumber("abc")).toBeUndefined();
     expect(parseNumber("Infinity")).toBeUndefined();
+  });
+
+  it("are read as lists with spaces, commas or semicolons between", () => {
+    expect(parseNumbers("1, 2.5;3  -4e2,")).toEqual([1, 2.5, 3, -400]);
+    expect(parseNumbers("  ")).toEqual([]);
+    expect(parseNumbers("1, two")).toBeUndefined();
   });
 });

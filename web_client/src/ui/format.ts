@@ -45,3 +45,10 @@ export function parseNumber(text: string): number | undefined {
   const value = Number(plain);
   return Number.isFinite(value) ? value : undefined;
 }
+
+/** Reads numbers with spaces, commas or semicolons between them; undefined where one is none. */
+export function parseNumbers(text: string): number[] | undefined {
+  const words = text.split(/[\s,;]+/).filter((word) => word !== "");
+  const values = words.map(parseNumber);
+  return values.some((v) => v === undefined) ? undefined : values.filter((v) => v !== undefined);
+}

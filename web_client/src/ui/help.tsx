@@ -11,7 +11,7 @@ const kRows: readonly (readonly [keys: string, what: string])[] = [
   ["1 2 3 or X Y Z", "Look along an axis; with Shift from behind"],
   ["P", "Perspective or orthographic"],
   ["F", "Full screen"],
-  ["Ctrl Z, Ctrl Shift Z", "Undo and redo in the map"],
+  ["Ctrl Z, Ctrl Shift Z", "Undo and redo any setting"],
   ["?", "This help"],
 ];
 

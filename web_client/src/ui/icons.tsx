@@ -10,6 +10,7 @@ const kPaths = {
   add: "M10 4.5v11M4.5 10h11",
   remove: "M4.5 6h11M8 6V4.2h4V6M6 6l.7 10h6.6L14 6",
   close: "M5.5 5.5l9 9M14.5 5.5l-9 9",
+  flip: "M10 3v14M7.5 6L3 14h4.5zM12.5 6L17 14h-4.5z",
   up: "M5 12.5l5-5 5 5",
   down: "M5 7.5l5 5 5-5",
   warning: "M10 3.2L17.5 16.5h-15zM10 8.2v4M10 14.3v.1",

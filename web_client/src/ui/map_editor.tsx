@@ -1,16 +1,10 @@
-import { useSignal, useSignalEffect } from "@preact/signals";
+import { type Signal, useSignal, useSignalEffect } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
-import {
-  changeMap,
-  drawnMap,
-  redo,
-  resetMap,
-  undo,
-  usesColours,
-  usesExtinction,
-} from "../state/actions";
+import { axisOfSlot, changeMap, drawnMap, fieldOf, mapEditOf, resetMap } from "../state/actions";
 import type { AppState } from "../state/app_state";
+import { type Slot, usesColours, usesExtinction } from "../state/models";
 import { withPointAt } from "../transfer/transfer_function";
+import { ScaleOptions } from "./field_picker";
 import { formatNumber, formatValue } from "./format";
 import { IconButton } from "./icons";
 import { MapInputs } from "./map_inputs";
@@ -20,6 +14,7 @@ import { ColourPresets, DensitySlider, OpacityPresets } from "./map_presets";
 
 interface Props {
   readonly state: AppState;
+  readonly slot: Slot;
 }
 
 /** Follows an element's width and the page's theme, for what is drawn on a canvas. */
@@ -47,45 +42,52 @@ function useCanvasFacts() {
   return { canvas, width, theme };
 }
 
-function Hint({ state }: Props) {
+function Hint({ state, slot }: Props) {
   const layer = state.layer.value;
-  if (!usesExtinction(layer)) {
-    return <p class="hint">Opacity plays no part in this ray model; its colours do.</p>;
+  if (!usesExtinction(layer, slot)) {
+    return <p class="hint">Opacity plays no part here; the colours do.</p>;
   }
   const length = formatNumber(state.referenceLength.value, 3);
   return (
     <p class="hint">
       Opacity is over a length of {length}, a tenth of the data’s diagonal. Extinction is per unit
-      of length.
+      of length.{!usesColours(layer, slot) && " Colours play no part here."}
     </p>
   );
 }
 
-function Plot({ state, selected }: Props & { readonly selected: { value: number } }) {
+/** The box that a map is drawn in: reads signals. */
+function boxOf(state: AppState, slot: Slot, width: number): PlotBox {
+  const field = fieldOf(state, slot);
+  const { map } = mapEditOf(state, slot);
+  const axis = axisOfSlot(state, slot);
+  const low = field?.min ?? map[0]?.value ?? 0;
+  const high = field?.max ?? map[map.length - 1]?.value ?? 1;
+  return { width, axis, ...rangeOf(map, low, high, axis) };
+}
+
+function Plot({ state, slot, selected }: Props & { readonly selected: Signal<number> }) {
   const { canvas, width, theme } = useCanvasFacts();
-  const field = state.field.value;
-  const { map } = state.edit.value.present;
-  const fieldMin = field?.min ?? map[0]?.value ?? 0;
-  const fieldMax = field?.max ?? map[map.length - 1]?.value ?? 1;
-  const box: PlotBox = { width: width.value, ...rangeOf(map, fieldMin, fieldMax) };
-  const showsOpacity = usesExtinction(state.layer.value);
+  const field = fieldOf(state, slot);
+  const { map } = mapEditOf(state, slot);
+  const box = boxOf(state, slot, width.value);
+  const showsOpacity = usesExtinction(state.layer.value, slot);
 
   useSignalEffect(() => {
     const element = canvas.current;
-    const shown = state.edit.value.present.map;
-    const now = state.field.value;
     theme.value;
     if (!element || width.value === 0) return;
-    const low = now?.min ?? shown[0]?.value ?? 0;
-    const high = now?.max ?? shown[shown.length - 1]?.value ?? 1;
+    const now = fieldOf(state, slot);
+    const shown = boxOf(state, slot, width.value);
     const content = {
-      box: { width: width.value, ...rangeOf(shown, low, high) },
-      map: drawnMap(state),
+      box: shown,
+      map: drawnMap(state, slot),
       referenceLength: state.referenceLength.value,
       histogram: now?.histogram ?? [],
-      fieldMin: low,
-      fieldMax: high,
-      showsOpacity: usesExtinction(state.layer.value),
+      fieldMin: now?.min ?? shown.low,
+      fieldMax: now?.max ?? shown.high,
+      showsOpacity: usesExtinction(state.layer.value, slot),
+      showsColours: usesColours(state.layer.value, slot),
     };
     drawPlot(element, content, window.devicePixelRatio);
   });
@@ -93,8 +95,8 @@ function Plot({ state, selected }: Props & { readonly selected: { value: number 
   const add = (event: MouseEvent): void => {
     const at = event.currentTarget as HTMLElement;
     const value = valueAt(box, event.clientX - at.getBoundingClientRect().left);
-    const next = withPointAt(map, value);
-    changeMap(state, next.map);
+    const next = withPointAt(map, value, box.axis.along);
+    changeMap(state, next.map, undefined, slot);
     selected.value = next.index;
   };
 
@@ -106,8 +108,9 @@ function Plot({ state, selected }: Props & { readonly selected: { value: number 
         {width.value > 0 && (
           <MapPoints
             state={state}
+            slot={slot}
             box={box}
-            selected={selected as Parameters<typeof MapPoints>[0]["selected"]}
+            selected={selected}
             showsOpacity={showsOpacity}
           />
         )}
@@ -122,57 +125,74 @@ function Plot({ state, selected }: Props & { readonly selected: { value: number 
 }
 
 /** Where the gap after the selected point, or else the widest one, has its middle. */
-function placeForNewPoint(state: AppState, selected: number): number | undefined {
-  const { map } = state.edit.value.present;
-  const gap = (i: number): number => (map[i + 1]?.value ?? 0) - (map[i]?.value ?? 0);
+function placeForNewPoint(state: AppState, slot: Slot, selected: number): number | undefined {
+  const { map } = mapEditOf(state, slot);
+  const { along, back } = axisOfSlot(state, slot);
+  const place = (i: number): number => along(map[i]?.value ?? 0);
+  const gap = (i: number): number => place(i + 1) - place(i);
   const gaps = map.slice(0, -1).map((_, i) => i);
   const at = gaps.includes(selected) && gap(selected) > 0 ? selected : undefined;
   const widest = at ?? gaps.sort((a, b) => gap(b) - gap(a))[0];
   if (widest === undefined || gap(widest) <= 0) return undefined;
-  return (map[widest]?.value ?? 0) + gap(widest) / 2;
+  return back(place(widest) + gap(widest) / 2);
 }
 
-/** Colours and extinction over the field's histogram, one map for both. */
-export function MapEditor({ state }: Props) {
-  const selected = useSignal(0);
-  const history = state.edit.value;
-  if (!state.layer.value || history.present.map.length === 0) return null;
-  if (!usesColours(state.layer.value)) return null;
-  const showsOpacity = usesExtinction(state.layer.value);
+function headingOf(colours: boolean, opacity: boolean): string {
+  if (colours && opacity) return "Colour and opacity";
+  return colours ? "Colour" : "Opacity";
+}
+
+/** Adds a point, starts over. */
+function Tools({ state, slot, selected }: Props & { readonly selected: Signal<number> }) {
   const add = (): void => {
-    const value = placeForNewPoint(state, selected.value);
+    const value = placeForNewPoint(state, slot, selected.value);
     if (value === undefined) return;
-    const next = withPointAt(history.present.map, value);
-    changeMap(state, next.map);
+    const { along } = axisOfSlot(state, slot);
+    const next = withPointAt(mapEditOf(state, slot).map, value, along);
+    changeMap(state, next.map, undefined, slot);
     selected.value = next.index;
   };
   return (
-    <section class="section" aria-labelledby="map-heading">
+    <>
+      <IconButton icon="add" label="Add a point" onClick={add} />
+      <IconButton icon="reset" label="Start over" onClick={() => resetMap(state, slot)} />
+    </>
+  );
+}
+
+/** Colours and extinction over a field's histogram, one map for both. */
+export function MapEditor({ state, slot }: Props) {
+  const selected = useSignal(0);
+  const layer = state.layer.value;
+  if (!layer || mapEditOf(state, slot).map.length === 0) return null;
+  const showsColours = usesColours(layer, slot);
+  const showsOpacity = usesExtinction(layer, slot);
+  if (!showsColours && !showsOpacity) return null;
+  const id = `map-heading-${slot}`;
+  const of = slot === "second" ? ` by ${layer.densityField}` : "";
+  return (
+    <section class="section" aria-labelledby={id}>
       <div class="section-head">
-        <h2 id="map-heading">{showsOpacity ? "Colour and opacity" : "Colour"}</h2>
-        <IconButton icon="add" label="Add a point" onClick={add} />
-        <IconButton
-          icon="undo"
-          label="Undo"
-          shortcut="Control+Z"
-          disabled={history.past.length === 0}
-          onClick={() => undo(state)}
-        />
-        <IconButton
-          icon="redo"
-          label="Redo"
-          shortcut="Control+Shift+Z"
-          disabled={history.future.length === 0}
-          onClick={() => redo(state)}
-        />
-        <IconButton icon="reset" label="Start over" onClick={() => resetMap(state)} />
+        <h2 id={id}>{`${headingOf(showsColours, showsOpacity)}${of}`}</h2>
+        <Tools state={state} slot={slot} selected={selected} />
       </div>
-      <Plot state={state} selected={selected} />
-      <MapInputs state={state} selected={selected} showsOpacity={showsOpacity} />
-      <ColourPresets state={state} />
-      {showsOpacity && <OpacityPresets state={state} />}
-      {showsOpacity && <DensitySlider state={state} />}
-      <Hint state={state} />
+      {slot === "second" && (
+        <div class="options">
+          <ScaleOptions state={state} slot="second" />
+        </div>
+      )}
+      <Plot state={state} slot={slot} selected={selected} />
+      <MapInputs
+        state={state}
+        slot={slot}
+        selected={selected}
+        showsColours={showsColours}
+        showsOpacity={showsOpacity}
+      />
+      {showsColours && <ColourPresets state={state} slot={slot} />}
+      {showsOpacity && <OpacityPresets state={state} slot={slot} />}
+      {showsOpacity && <DensitySlider state={state} slot={slot} />}
+      <Hint state={state} slot={slot} />
     </section>
   );
 }

@@ -1,4 +1,5 @@
 import { opacityFromExtinction } from "../transfer/opacity";
+import { type Axis, kStraight } from "../transfer/scale";
 import { toHex } from "../transfer/srgb";
 import { sampleAt, type TransferFunction } from "../transfer/transfer_function";
 
@@ -7,6 +8,8 @@ export interface PlotBox {
   readonly width: number;
   readonly low: number;
   readonly high: number;
+  /** How values lie between both. */
+  readonly axis: Axis;
 }
 
 export const kPlotHeight = 136;
@@ -16,13 +19,16 @@ export const kPadX = 10;
 const kPadTop = 10;
 
 export function xOf(box: PlotBox, value: number): number {
-  const t = (value - box.low) / (box.high - box.low);
+  const { along } = box.axis;
+  const t = (along(value) - along(box.low)) / (along(box.high) - along(box.low));
   return kPadX + t * (box.width - 2 * kPadX);
 }
 
 export function valueAt(box: PlotBox, x: number): number {
-  const t = (x - kPadX) / (box.width - 2 * kPadX);
-  return box.low + Math.min(1, Math.max(0, t)) * (box.high - box.low);
+  const t = Math.min(1, Math.max(0, (x - kPadX) / (box.width - 2 * kPadX)));
+  if (t === 0 || t === 1) return t === 0 ? box.low : box.high;
+  const { along, back } = box.axis;
+  return back(along(box.low) + t * (along(box.high) - along(box.low)));
 }
 
 export function yOf(opacity: number): number {
@@ -34,14 +40,15 @@ export function opacityOfDrag(dy: number): number {
   return -dy / (kPlotHeight - kPadTop);
 }
 
-/** The range that the editor shows: the field's, and the map's where that is wider. */
+/** The range that the editor shows: the field's and the map's, within what the axis can show. */
 export function rangeOf(
   map: TransferFunction,
   fieldMin: number,
   fieldMax: number,
+  axis: Axis = kStraight,
 ): { low: number; high: number } {
-  const low = Math.min(fieldMin, map[0]?.value ?? fieldMin);
-  const high = Math.max(fieldMax, map[map.length - 1]?.value ?? fieldMax);
+  const low = Math.max(axis.low, Math.min(fieldMin, map[0]?.value ?? fieldMin));
+  const high = Math.min(axis.high, Math.max(fieldMax, map[map.length - 1]?.value ?? fieldMax));
   return high > low ? { low, high } : { low: low - 0.5, high: high + 0.5 };
 }
 
@@ -60,12 +67,15 @@ export interface PlotContent {
   readonly fieldMin: number;
   readonly fieldMax: number;
   readonly showsOpacity: boolean;
+  readonly showsColours: boolean;
 }
 
 interface Inks {
   readonly bars: string;
   readonly grid: string;
   readonly curve: string;
+  /** For maps whose colours play no part. */
+  readonly grey: string;
 }
 
 function drawGrid(context: CanvasRenderingContext2D, { box }: PlotContent, ink: string): void {
@@ -84,6 +94,7 @@ function drawHistogram(context: CanvasRenderingContext2D, content: PlotContent, 
   barHeights(histogram).forEach((height, i) => {
     const left = xOf(box, fieldMin + i * bin);
     const right = xOf(box, fieldMin + (i + 1) * bin);
+    if (right < kPadX) return; // Below what the scale can show.
     const top = yOf(0.92 * height);
     context.rect(left, top, right - left, kPlotHeight - top);
   });
@@ -91,12 +102,17 @@ function drawHistogram(context: CanvasRenderingContext2D, content: PlotContent, 
 }
 
 /** One column a device pixel: colour and opacity as they are, curved where the map is straight. */
-function drawMap(context: CanvasRenderingContext2D, content: PlotContent, scale: number): void {
-  const { box, map, referenceLength, showsOpacity } = content;
+function drawMap(
+  context: CanvasRenderingContext2D,
+  content: PlotContent,
+  scale: number,
+  ink: string,
+): void {
+  const { box, map, referenceLength, showsOpacity, showsColours } = content;
   const step = 1 / scale;
   for (let x = kPadX; x < box.width - kPadX; x += step) {
-    const here = sampleAt(map, valueAt(box, x + step / 2));
-    context.fillStyle = toHex(here.colour);
+    const here = sampleAt(map, valueAt(box, x + step / 2), box.axis.along);
+    context.fillStyle = showsColours ? toHex(here.colour) : ink;
     context.fillRect(x, kPlotHeight + kBarGap, step, kBarHeight);
     if (!showsOpacity) continue;
     const top = yOf(opacityFromExtinction(here.extinction, referenceLength));
@@ -112,18 +128,20 @@ function drawCurve(context: CanvasRenderingContext2D, content: PlotContent, ink:
   context.lineWidth = 1.5;
   context.lineJoin = "round";
   context.beginPath();
-  const lineTo = (value: number, extinction: number): void =>
-    context.lineTo(xOf(box, value), yOf(opacityFromExtinction(extinction, referenceLength)));
-  lineTo(box.low, sampleAt(map, box.low).extinction);
+  const lineTo = (x: number, extinction: number): void =>
+    context.lineTo(x, yOf(opacityFromExtinction(extinction, referenceLength)));
+  lineTo(kPadX, sampleAt(map, box.low).extinction);
   map.forEach((point, i) => {
     const before = map[i - 1];
+    const x = xOf(box, point.value);
     for (let k = 1; before && k < 16; k += 1) {
-      const value = before.value + ((point.value - before.value) * k) / 16;
-      lineTo(value, before.extinction + ((point.extinction - before.extinction) * k) / 16);
+      const from = xOf(box, before.value);
+      const extinction = before.extinction + ((point.extinction - before.extinction) * k) / 16;
+      lineTo(from + ((x - from) * k) / 16, extinction);
     }
-    lineTo(point.value, point.extinction);
+    lineTo(x, point.extinction);
   });
-  lineTo(box.high, sampleAt(map, box.high).extinction);
+  lineTo(box.width - kPadX, sampleAt(map, box.high).extinction);
   context.stroke();
 }
 
@@ -139,10 +157,11 @@ export function drawPlot(canvas: HTMLCanvasElement, content: PlotContent, scale:
     bars: style.getPropertyValue("--plot-bars"),
     grid: style.getPropertyValue("--plot-grid"),
     curve: style.getPropertyValue("--plot-curve"),
+    grey: style.getPropertyValue("--line-strong"),
   };
   context.setTransform(scale, 0, 0, scale, 0, 0);
   drawGrid(context, content, inks.grid);
   drawHistogram(context, content, inks.bars);
-  drawMap(context, content, scale);
+  drawMap(context, content, scale, inks.grey);
   if (content.showsOpacity) drawCurve(context, content, inks.curve);
 }

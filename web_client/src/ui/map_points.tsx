@@ -1,7 +1,8 @@
 import type { Signal } from "@preact/signals";
 import { useRef } from "preact/hooks";
-import { changeMap, endGesture } from "../state/actions";
+import { changeMap, endGesture, mapEditOf } from "../state/actions";
 import type { AppState } from "../state/app_state";
+import type { Slot } from "../state/models";
 import {
   extinctionFromOpacity,
   kMaxDrawnOpacity,
@@ -13,6 +14,7 @@ import { formatNumber, formatValue } from "./format";
 import {
   kBarGap,
   kBarHeight,
+  kPadX,
   kPlotHeight,
   opacityOfDrag,
   type PlotBox,
@@ -23,6 +25,7 @@ import {
 
 interface Props {
   readonly state: AppState;
+  readonly slot: Slot;
   readonly box: PlotBox;
   readonly selected: Signal<number>;
   readonly showsOpacity: boolean;
@@ -39,35 +42,41 @@ interface Drag {
 let lastDrag = 0;
 
 /** Opacity over the reference length, as drawn, of a point of the map. */
-function opacityOf(state: AppState, point: Point): number {
-  const drawn = point.extinction * state.edit.value.present.density;
+function opacityOf(state: AppState, slot: Slot, point: Point): number {
+  const drawn = point.extinction * mapEditOf(state, slot).density;
   return opacityFromExtinction(drawn, state.referenceLength.value);
 }
 
 /** The extinction that the map must hold for `opacity` to be drawn. */
-export function extinctionFor(state: AppState, opacity: number): number {
+export function extinctionFor(state: AppState, slot: Slot, opacity: number): number {
   const bounded = Math.min(kMaxDrawnOpacity, Math.max(0, opacity));
-  const { density } = state.edit.value.present;
+  const { density } = mapEditOf(state, slot);
   return extinctionFromOpacity(bounded, state.referenceLength.value) / density;
 }
 
 /** Deletes a point; the one before it is selected. */
-export function deletePoint(state: AppState, selected: Signal<number>, index: number): void {
-  const { map } = state.edit.value.present;
+export function deletePoint(
+  state: AppState,
+  slot: Slot,
+  selected: Signal<number>,
+  index: number,
+): void {
+  const { map } = mapEditOf(state, slot);
   if (isEnd(map, index)) return;
-  changeMap(state, withoutPoint(map, index));
+  changeMap(state, withoutPoint(map, index), undefined, slot);
   selected.value = Math.max(0, index - 1);
 }
 
 /** Moves by arrow keys: a hundredth of the range or of the opacity, a tenth of that with Shift. */
-function nudge(state: AppState, box: PlotBox, index: number, dx: number, dy: number): void {
-  const { map } = state.edit.value.present;
+function nudge({ state, slot, box }: Props, index: number, dx: number, dy: number): void {
+  const { map } = mapEditOf(state, slot);
   const point = map[index];
   if (!point) return;
-  const value = point.value + dx * (box.high - box.low);
+  const value =
+    dx === 0 ? point.value : valueAt(box, xOf(box, point.value) + dx * (box.width - 2 * kPadX));
   const extinction =
-    dy === 0 ? point.extinction : extinctionFor(state, opacityOf(state, point) + dy);
-  changeMap(state, withMovedPoint(map, index, value, extinction), `nudge ${index}`);
+    dy === 0 ? point.extinction : extinctionFor(state, slot, opacityOf(state, slot, point) + dy);
+  changeMap(state, withMovedPoint(map, index, value, extinction), `nudge ${slot} ${index}`, slot);
 }
 
 const kArrows: Readonly<Record<string, readonly [number, number]>> = {
@@ -78,19 +87,20 @@ const kArrows: Readonly<Record<string, readonly [number, number]>> = {
 };
 
 /** The map's points: buttons that are dragged, or moved with the keyboard. */
-export function MapPoints({ state, box, selected, showsOpacity }: Props) {
+export function MapPoints(props: Props) {
+  const { state, slot, box, selected, showsOpacity } = props;
   const drag = useRef<Drag | undefined>(undefined);
-  const { map } = state.edit.value.present;
+  const { map } = mapEditOf(state, slot);
 
   const keyDown = (index: number, event: KeyboardEvent): void => {
     const arrow = kArrows[event.key];
     if (arrow && !event.ctrlKey && !event.metaKey) {
       const step = event.shiftKey ? 0.001 : 0.01;
-      nudge(state, box, index, arrow[0] * step, showsOpacity ? arrow[1] * step : 0);
+      nudge(props, index, arrow[0] * step, showsOpacity ? arrow[1] * step : 0);
       event.preventDefault();
     } else if (event.key === "Delete" || event.key === "Backspace") {
       const buttons = (event.currentTarget as HTMLElement).parentElement?.children;
-      deletePoint(state, selected, index);
+      deletePoint(state, slot, selected, index);
       (buttons?.[selected.value] as HTMLElement | undefined)?.focus();
       event.preventDefault();
     }
@@ -100,7 +110,7 @@ export function MapPoints({ state, box, selected, showsOpacity }: Props) {
     const start = map[index];
     if (event.button === 1) {
       event.preventDefault();
-      deletePoint(state, selected, index);
+      deletePoint(state, slot, selected, index);
     } else if (event.button === 0 && start) {
       (event.currentTarget as HTMLElement).setPointerCapture(event.pointerId);
       lastDrag += 1;
@@ -117,13 +127,13 @@ export function MapPoints({ state, box, selected, showsOpacity }: Props) {
     const dy = event.clientY - now.y;
     if (dx === 0 && dy === 0 && state.edit.value.gesture !== now.gesture) return;
     const value = valueAt(box, xOf(box, now.start.value) + dx);
-    const begun = opacityOf(state, now.start);
+    const begun = opacityOf(state, slot, now.start);
     const extinction =
       dy === 0 || !showsOpacity
         ? now.start.extinction
-        : extinctionFor(state, begun + opacityOfDrag(dy));
-    const present = state.edit.value.present.map;
-    changeMap(state, withMovedPoint(present, now.index, value, extinction), now.gesture);
+        : extinctionFor(state, slot, begun + opacityOfDrag(dy));
+    const present = mapEditOf(state, slot).map;
+    changeMap(state, withMovedPoint(present, now.index, value, extinction), now.gesture, slot);
   };
 
   const released = (): void => {
@@ -135,7 +145,7 @@ export function MapPoints({ state, box, selected, showsOpacity }: Props) {
   return (
     <div class="map-points">
       {map.map((point, index) => {
-        const opacity = opacityOf(state, point);
+        const opacity = opacityOf(state, slot, point);
         const top = showsOpacity ? yOf(Math.min(opacity, 1)) : barMiddle;
         const says = `Point ${index + 1} of ${map.length}: value ${formatValue(point.value, box.high - box.low)}, opacity ${formatNumber(100 * opacity, 3)} %`;
         return (
@@ -159,7 +169,7 @@ export function MapPoints({ state, box, selected, showsOpacity }: Props) {
             onPointerCancel={released}
             onDblClick={(e) => {
               e.stopPropagation();
-              deletePoint(state, selected, index);
+              deletePoint(state, slot, selected, index);
             }}
           />
         );

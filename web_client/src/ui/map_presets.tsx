@@ -1,5 +1,6 @@
-import { changeDensity, changeMap, endGesture } from "../state/actions";
+import { changeDensity, changeMap, endGesture, mapEditOf } from "../state/actions";
 import type { AppState } from "../state/app_state";
+import type { Slot } from "../state/models";
 import { type ColourMap, kColourMaps } from "../transfer/colour_maps";
 import { kOpacityShapes, withColourMap, withOpacityShape } from "../transfer/presets";
 import { toHex } from "../transfer/srgb";
@@ -7,13 +8,14 @@ import { formatNumber } from "./format";
 
 interface Props {
   readonly state: AppState;
+  readonly slot: Slot;
 }
 
 const gradient = (map: ColourMap): string =>
   `linear-gradient(90deg in srgb-linear, ${map.stops.map(toHex).join(", ")})`;
 
 /** Ready-made colours over the map's range; the opacity stays. */
-export function ColourPresets({ state }: Props) {
+export function ColourPresets({ state, slot }: Props) {
   return (
     <fieldset class="swatches">
       <legend>Colours</legend>
@@ -25,7 +27,10 @@ export function ColourPresets({ state }: Props) {
           title={colours.name}
           aria-label={`${colours.name} colours`}
           style={{ backgroundImage: gradient(colours) }}
-          onClick={() => changeMap(state, withColourMap(state.edit.value.present.map, colours))}
+          onClick={() => {
+            const { map } = mapEditOf(state, slot);
+            changeMap(state, withColourMap(map, colours), undefined, slot);
+          }}
         />
       ))}
     </fieldset>
@@ -33,11 +38,12 @@ export function ColourPresets({ state }: Props) {
 }
 
 /** Ready-made opacity curves; the colours stay. */
-export function OpacityPresets({ state }: Props) {
+export function OpacityPresets({ state, slot }: Props) {
   const apply = (id: string): void => {
     const shape = kOpacityShapes.find((s) => s.id === id);
-    const { map } = state.edit.value.present;
-    if (shape) changeMap(state, withOpacityShape(map, shape, state.referenceLength.value));
+    const { map } = mapEditOf(state, slot);
+    const length = state.referenceLength.value;
+    if (shape) changeMap(state, withOpacityShape(map, shape, length), undefined, slot);
   };
   return (
     <label class="line">
@@ -61,8 +67,9 @@ export function OpacityPresets({ state }: Props) {
 }
 
 /** All extinctions at once, over four powers of ten. */
-export function DensitySlider({ state }: Props) {
-  const { density } = state.edit.value.present;
+export function DensitySlider({ state, slot }: Props) {
+  const { density } = mapEditOf(state, slot);
+  const gesture = `density ${slot}`;
   return (
     <label class="density">
       <span>
@@ -75,9 +82,9 @@ export function DensitySlider({ state }: Props) {
         step={0.01}
         value={Math.log10(density)}
         aria-valuetext={`times ${formatNumber(density, 3)}`}
-        onInput={(e) => changeDensity(state, 10 ** Number(e.currentTarget.value), "density")}
+        onInput={(e) => changeDensity(state, 10 ** Number(e.currentTarget.value), gesture, slot)}
         onChange={() => endGesture(state)}
-        onDblClick={() => changeDensity(state, 1)}
+        onDblClick={() => changeDensity(state, 1, undefined, slot)}
       />
     </label>
   );
