@@ -223,8 +223,8 @@ describe("accuracy", () => {
       "Exact",
     ]);
     for (const [label, name] of [
+      ["Exact", "exact"],
       ["Average", "average"],
-      ["Linear opacity", "linear_opacity"],
     ] as const) {
       await choose("Integrator", label);
       expect(await integrator()).toBe(name);
@@ -249,6 +249,7 @@ describe("what the server refuses", () => {
     expect(await note().textContent()).toContain("Levels: an isosurface needs at least one level.");
     expect(await setting("Values").getAttribute("aria-invalid")).toBe("true");
     expect(await client.badge()).toBe("refused");
+    await client.page.waitForSelector('.picture[data-lossless="true"]');
     expect(await picture()).toBe(before);
     await client.page.getByRole("button", { name: "Take back" }).click();
     await client.settled();
