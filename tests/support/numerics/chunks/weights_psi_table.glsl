@@ -1,0 +1,8 @@
+#include "lib/psi_table.glsl"
+
+vec3 weightsOf(float a, float b) {
+    vec2 share = psiFromTable(a, b);
+    float back = share.x * share.y;
+    return vec3(share.y - back, back, share.y);
+}
+#include "weights_main.glsl"
