@@ -17,6 +17,14 @@ expect(0 "" --help)
 # One row that is right, one whose back weight is 5e-6 too large.
 file(READ ${FILE} text)
 string(REGEX MATCH "^[^\n]*\n" header "${text}")
+
+# More rows than one batch of the program holds (262,144): none may be mixed up.
+string(REPLACE "${header}" "" rows "${text}")
+string(REPEAT "${rows}" 900 many)
+file(WRITE ${FOLDER}/many.csv "${header}${many}")
+expect(0 "287100 rows.*\n0 of 287100 rows past" ${FOLDER}/many.csv)
+file(REMOVE ${FOLDER}/many.csv)
+
 file(WRITE ${FOLDER}/broken.csv "${header}1,1,0.36787944117144232,0.36787944117144232,"
      "0.26424111765711536\n1,1,0.36787944117144232,0.36787944117144232,0.26424243886270394\n")
 expect(1 "line 3.*1 of 2 rows past" ${FOLDER}/broken.csv)

@@ -59,10 +59,9 @@ Result<void> WeightsProbe::batch(std::span<const glm::vec2> pairs,
     device_->draw(gpu::Primitive::kTriangles, 3);
     std::vector<float> pixels(kRow * static_cast<std::size_t>(size.y) * 4);
     target->readRgba32F(pixels);
-    // Row 0 of what is read is the top; the pairs begin at the bottom.
+    // Row 0 of what is read is that of gl_FragCoord.y = 0.5.
     for (std::size_t i = 0; i < pairs.size(); ++i) {
-        const std::size_t row = static_cast<std::size_t>(size.y) - 1 - i / kRow;
-        const float* pixel = &pixels[(row * kRow + i % kRow) * 4];
+        const float* pixel = &pixels[i * 4];
         answers.emplace_back(pixel[0], pixel[1], pixel[2]);
     }
     return {};
