@@ -8,6 +8,7 @@
 #include "renderer/gpu/timer.h"
 #include "renderer/shading/program_cache.h"
 #include "tests/support/gl_test.h"
+#include "tests/support/layer_constants.h"
 
 namespace volcast {
 namespace {
@@ -80,24 +81,28 @@ TEST_F(ProgramTest, ABrokenChunkIsReportedWithItsFileAndLine) {
         device(), withChunk("model/mip.glsl",
                             "struct RayState { float a; };\n"
                             "RayState beginRay(Ray ray) { return RayState(0.0); }\n"
-                            "bool stepRay(inout RayState state, Segment piece) {\n"
+                            "bool stepRay(inout RayState state, inout Segment rest) {\n"
                             "    return undeclaredThing;\n"
                             "}\n"
+                            "void enterData(inout RayState s, Segment piece) {}\n"
                             "bool skipsBetween(RayState s, float lo, float hi) { return false; }\n"
-                            "vec4 endRay(RayState s) { return vec4(0.0); }\n")};
+                            "vec4 endRay(RayState s, float facing) { return vec4(0.0); }\n"
+                            "float hitDistance(RayState s) { return kNoHit; }\n"
+                            "vec4 packRay(RayState s) { return vec4(s.a); }\n"
+                            "RayState unpackRay(vec4 v) { return RayState(v.r); }\n")};
+    std::vector<Constant> constants = support::layerConstants(0);
+    constants.insert(constants.end(), {{"kTrilinear", true},
+                                       {"kFilterInHardware", true},
+                                       {"kSkipBricks", true},
+                                       {"kEarlyStop", true},
+                                       {"kBrickSize", 16},
+                                       {"kMaxRaySamples", 100}});
     const Result<const gpu::Program*> program =
         programs.ray({.evaluator = "volume/march.glsl",
                       .classify = "classify/transfer_function.glsl",
                       .segment = "",
                       .model = "model/mip.glsl",
-                      .constants = {{"kMapSearch", 0},
-                                    {"kEndsAtSurfaces", false},
-                                    {"kTrilinear", true},
-                                    {"kFilterInHardware", true},
-                                    {"kSkipBricks", true},
-                                    {"kEarlyStop", true},
-                                    {"kBrickSize", 16},
-                                    {"kMaxRaySamples", 100}}});
+                      .constants = constants});
     ASSERT_TRUE(program.has_error());
     EXPECT_EQ(program.error().code, ErrorCode::kShaderBuild);
     EXPECT_THAT(program.error().message, ::testing::HasSubstr("model/mip.glsl:4:"));
