@@ -90,7 +90,7 @@ TEST_F(ProgramTest, ABrokenChunkIsReportedWithItsFileAndLine) {
                             "float hitDistance(RayState s) { return kNoHit; }\n"
                             "vec4 packRay(RayState s) { return vec4(s.a); }\n"
                             "RayState unpackRay(vec4 v) { return RayState(v.r); }\n")};
-    std::vector<Constant> constants = support::layerConstants(0);
+    std::vector<shading::Constant> constants = support::layerConstants(0);
     constants.insert(constants.end(), {{"kTrilinear", true},
                                        {"kFilterInHardware", true},
                                        {"kSkipBricks", true},
