@@ -1,56 +1,20 @@
 // The rows of hard_cases.csv that are about one formula: psi, its invariants, opacity correction.
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <string>
 #include <vector>
 
 #include "tests/support/gl_test.h"
+#include "tests/support/numerics/hard_cases.h"
 #include "tests/support/numerics/weights_probe.h"
 
 namespace volcast {
 namespace {
 
-using Row = std::vector<std::string>;  // kind, name, input, correct, tolerance, why
-
-std::vector<std::string> cellsOf(const std::string& line) {
-    std::vector<std::string> cells(1);
-    bool quoted = false;
-    for (const char c : line) {
-        if (c == '"') {
-            quoted = !quoted;
-        } else if (c == ',' && !quoted) {
-            cells.emplace_back();
-        } else if (c != '\r') {
-            cells.back() += c;
-        }
-    }
-    return cells;
-}
-
-std::vector<Row> rowsOf(const std::string& kind) {
-    std::ifstream file{VOLCAST_SOURCE_DIR "/tests/support/numerics/hard_cases.csv"};
-    std::vector<Row> rows;
-    for (std::string line; std::getline(file, line);) {
-        Row row = cellsOf(line);
-        if (row[0].starts_with(kind)) rows.push_back(std::move(row));
-    }
-    return rows;
-}
-
-/// The number after `key` in `text`; NaN where there is none.
-double after(const std::string& text, const std::string& key) {
-    const std::size_t at = text.find(key);
-    return at == std::string::npos ? NAN : std::strtod(text.c_str() + at + key.size(), nullptr);
-}
-
-/// What `text` lets a number be off: "rel 4e-6 + abs 1e-36", "abs 1e-36", "exact 0".
-double allowed(const std::string& text, double right) {
-    const double relative = after(text, "rel ");
-    const double absolute = after(text, "abs ");
-    return (std::isnan(relative) ? 0.0 : relative * std::abs(right)) +
-           (std::isnan(absolute) ? 0.0 : absolute);
-}
+using support::after;
+using support::allowed;
+using support::Row;
+using support::rowsOf;
 
 glm::vec2 depthsOf(const Row& row) {
     const std::string input = row[1] + " " + row[2];
