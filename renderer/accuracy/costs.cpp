@@ -23,7 +23,7 @@ Result<data::Mesh> wavyCube() {
     data::MeshInput mesh;
     std::vector<double> values;
     const auto id = [](int x, int y, int z) {
-        return static_cast<std::int64_t>((z * (kSide + 1) + y) * (kSide + 1) + x);
+        return (std::int64_t{z} * (kSide + 1) + y) * (kSide + 1) + x;
     };
     for (int z = 0; z <= kSide; ++z) {
         for (int y = 0; y <= kSide; ++y) {

@@ -74,6 +74,18 @@ std::vector<LayerOrder> ordersOf(const Frame& frame) {
     return orders;
 }
 
+/// How cells were put in order becomes a part of why they were.
+void tellOrder(const LayerOrder& order, plan::FramePlan& frame) {
+    const auto layer = std::ranges::find(frame.layers, order.layer, &plan::LayerPlan::layer);
+    const auto effect =
+        std::ranges::find(layer->effects, plan::kVisibilityOrder, &plan::Effect::name);
+    const mesh::OrderReport& report = order.report;
+    effect->reason +=
+        std::string{"; sorted by "} + (report.byPowerDistance ? "power distance" : "centroid") +
+        ": " + std::to_string(report.sortViolations) + " pairs of neighbours came out wrong, " +
+        std::to_string(report.orderViolations) + " are left";
+}
+
 bool isOpaque(const LayerDraw& draw) {
     return row(draw.layer->model).opaque;
 }
@@ -198,6 +210,7 @@ Result<FrameInfo> DeviceRenderer::render(std::uint64_t view, const Scene& scene,
     info.readbackMs = *readMs;
     info.drawn = work != Work::kNothing;
     info.orders = ordersOf(frame);
+    for (const LayerOrder& order : info.orders) tellOrder(order, info.plan);
     if (info.drawn) ++counters_.framesDrawn;
     info.work = counters_ - before;
     return info;
