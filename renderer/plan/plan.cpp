@@ -94,7 +94,7 @@ void planVisible(LayerPlan& plan, const Matter& matter) {
 }
 
 void planEarlyStop(LayerPlan& plan, const Matter& matter) {
-    // Opacity 1 - 1e-6 is the depth at which model/volume.glsl calls a ray finished.
+    // A little less than that of lib/finished.glsl.
     constexpr double kFinishedDepth = 13.8;
     const double depth = static_cast<double>(matter.extinction.max) * matter.diagonal;
     if (matter.layer.model == RayModel::kIsosurface) {

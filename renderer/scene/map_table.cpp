@@ -9,8 +9,7 @@ namespace volcast::scene {
 
 namespace {
 
-constexpr std::size_t kBlockBytes =
-    (kMapHeaderTexels + shading::shared::kMapBlockTexels) * sizeof(glm::vec4);
+constexpr std::size_t kHeaderBytes = kMapHeaderTexels * sizeof(glm::vec4);
 
 }  // namespace
 
@@ -24,7 +23,7 @@ Result<void> MapTable::set(gpu::Device& device, const MapContent& content) {
         // Room for a few more points, so that adding one while editing stays an update.
         Result<gpu::Buffer> buffer =
             gpu::Buffer::create(device,
-                                {.bytes = std::max(bytes.size() * 2, kBlockBytes),
+                                {.bytes = bytes.size() * 2,
                                  .updatable = true,
                                  .texels = gpu::TexelFormat::kRgba32F,
                                  .label = "transfer function"},
@@ -33,8 +32,6 @@ Result<void> MapTable::set(gpu::Device& device, const MapContent& content) {
         buffer_ = std::move(*buffer);
     }
     content_ = content;
-    inBlock_ =
-        table.pieces <= shading::shared::kMapBlockTexels + static_cast<int>(kMapHeaderTexels);
     search_ = table.search;
     densitySearch_ = table.densitySearch;
     steps_ = table.steps;
@@ -45,7 +42,7 @@ Result<void> MapTable::set(gpu::Device& device, const MapContent& content) {
 }
 
 void MapTable::bind() const noexcept {
-    buffer_.bindUniform(shading::shared::kMapBinding, 0, kBlockBytes);
+    buffer_.bindUniform(shading::shared::kMapBinding, 0, kHeaderBytes);
     buffer_.bindTexels(shading::shared::kMapUnit);
 }
 
@@ -56,7 +53,6 @@ std::vector<shading::Constant> MapTable::constants() const {
             {.name = "kDensitySlopes", .value = densitySlopes_},
             {.name = "kMapSteps", .value = steps_},
             {.name = "kDensitySteps", .value = densitySteps_},
-            {.name = "kMapInBlock", .value = inBlock_},
             {.name = "kTwoMaps", .value = !content_.densityMap.points.empty()},
             {.name = "kPreintegratedSide", .value = kPreintegratedSide}};
 }

@@ -26,7 +26,6 @@ private:
     MapSearch densitySearch_ = MapSearch::kCompareAll;
     int slopes_ = 0, densitySlopes_ = 0;
     bool steps_ = false, densitySteps_ = false;
-    bool inBlock_ = true;  ///< All pieces are in the uniform block.
     gpu::Buffer buffer_;
 };
 

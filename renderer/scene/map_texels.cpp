@@ -198,7 +198,6 @@ MapTexels mapTexels(const MapContent& content) {
         table.densitySlopes = second.slopes;
         table.densitySteps = hasSteps(content.densityMap);
     }
-    table.pieces = static_cast<int>(table.texels.size());
     sections.y = here();
     for (const LevelColour& level : content.levels) {
         table.texels.emplace_back(level.value, level.colour.r, level.colour.g, level.colour.b);

@@ -43,7 +43,6 @@ struct MapTexels {
     MapSearch densitySearch = MapSearch::kCompareAll;
     int slopes = 0, densitySlopes = 0;         ///< kSlopes: how many are added up, 4 or 7.
     bool steps = false, densitySteps = false;  ///< Two points have one value.
-    int pieces = 0;  ///< Texels up to the end of the last piece of both maps.
 };
 
 /// `content.map` must be valid.

@@ -11,8 +11,8 @@
 //   1  many points: a uniform grid narrows it to 4 pieces, then 2 halvings
 //   2  points too uneven for a grid: 11 halvings
 //   3  a sum of kMapSlopes slopes, 4 or 7
-// kMapInBlock: all pieces fit the uniform block. kTwoMaps: extinction has a map of its own, found by
-// kDensitySearch and kDensitySlopes, or a field of its own.
+// kTwoMaps: extinction has a map of its own, found by kDensitySearch and kDensitySlopes, or a field
+// of its own.
 // Layout of the buffer (texels of 4 floats), written by renderer/scene/map_texels.cpp:
 //   0        x: number of points, y: grid cells, z: where the grid begins, w: cells a unit of value
 //   1, 2     the first 8 points' values, huge where there are fewer
@@ -44,7 +44,6 @@ layout(std140, binding = kMapBinding) uniform MapHeader {
     MapHead uniformDensityHead;
     vec4 mapSections;
     vec4 mapExtras;
-    vec4 mapBlock[kMapBlockTexels];  // the texels that follow
 };
 layout(binding = kMapUnit) uniform samplerBuffer mapTexels;
 
@@ -65,11 +64,6 @@ MapHead computed(MapHead head) {
 
 MapHead mapHead = computed(uniformMapHead);
 MapHead densityHead = computed(uniformDensityHead);
-
-// Small maps are read from the uniform block: on llvmpipe that costs a third of a texel.
-vec4 mapTexel(int texel) {
-    return kMapInBlock ? mapBlock[texel - kMapPieces] : texelFetch(mapTexels, texel);
-}
 
 // Halves [range.x, range.y], which holds the piece of `value`. No loop, because llvmpipe ends all
 // loops of an invocation after 65,535 iterations in total.
@@ -144,8 +138,8 @@ struct MapPiece {
 
 MapPiece fetchPiece(int pieces, int piece) {
     int texel = pieces + 3 * piece;
-    vec4 place = mapTexel(texel + 2);
-    return MapPiece(mapTexel(texel), mapTexel(texel + 1), place.x,
+    vec4 place = texelFetch(mapTexels, texel + 2);
+    return MapPiece(texelFetch(mapTexels, texel), texelFetch(mapTexels, texel + 1), place.x,
                     place.w);
 }
 

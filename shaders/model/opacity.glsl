@@ -1,14 +1,12 @@
 // A volume of one colour: only how much of it lies on the ray counts, which needs no order.
 // Uses: classify, segment (the integral of rho).
+#include "lib/finished.glsl"
 #include "lib/opacity.glsl"
 
 struct RayState {
     MapCursor cursor;
     float depth;  // int rho ds so far
 };
-
-// As deep as what model/volume.glsl calls finished: 1 - exp(-13.8155) = 1 - 1e-6.
-const float kFinishedDepth = 13.8155;
 
 RayState beginRay(Ray ray) {
     return RayState(noCursor(), 0.0);

@@ -1,14 +1,13 @@
 // Emission and absorption, front to back: each piece adds its light through what lies before it.
 // Source: N. Max, Optical Models for Direct Volume Rendering, IEEE TVCG 1(2), 1995, section 4.
 // Uses: classify, segment.
+#include "lib/finished.glsl"
+
 struct RayState {
     MapCursor cursor;
     vec3 colour;    // premultiplied, linear
     float opacity;  // of all pieces so far
 };
-
-// A ray this opaque is finished: the rest changes no channel by more than a 16-bit step.
-const float kFinishedOpacity = 1.0 - 1.0e-6;
 
 RayState beginRay(Ray ray) {
     return RayState(noCursor(), vec3(0.0), 0.0);

@@ -2,6 +2,7 @@
 // what lies before it.
 // Constants: kLit: levels are lit from the eye.
 // Uses: classify, segment.
+#include "lib/finished.glsl"
 #include "lib/levels.glsl"
 
 struct RayState {
@@ -12,8 +13,6 @@ struct RayState {
     int level;      // that ends the ray with the piece in hand; -1: none yet
     float distance;
 };
-
-const float kFinishedOpacity = 1.0 - 1.0e-6;
 
 RayState beginRay(Ray ray) {
     return RayState(noCursor(), LevelCursor(0, -3.4e38, 3.4e38), vec3(0.0), 0.0, -1, kNoHit);

@@ -2,8 +2,8 @@
 // integral is exact. Parts are cut at an optical depth of 1/2, where a short series is as good as
 // the closed form for any depth and costs a fifth of it.
 // Source: K. Moreland, E. Angel, A Fast High Accuracy Volume Renderer for Unstructured Data, IEEE
-// VolVis 2004, section 3 (the integral), and L. Williams, N. Max, R. Stevens, A Volume Density
-// Optical Model, VVS 1992 (the splitting).
+// VolVis 2004 (the integral), and P. Williams, N. Max, C. Stein, A High Accuracy Volume Renderer for
+// Unstructured Data, IEEE TVCG 4(1), 1998 (the splitting).
 // Uses: classify.
 #include "lib/map_cursor.glsl"
 #include "lib/psi_short.glsl"

@@ -1,7 +1,7 @@
 // The largest red, green and blue anywhere in pieces: at both ends and at every control point
 // between. Pieces that go on from each other cover one range of values, so that range is kept and
 // the map asked once at its end: the largest of any run of points is that of two runs of a table.
-// Source of the table: M. Bender, M. Farach-Colton, The LCA Problem Revisited, LATIN 2000, section 3.
+// Source of the table: M. Bender, M. Farach-Colton, The LCA Problem Revisited, LATIN 2000.
 // Uses: classify.
 #include "lib/map_cursor.glsl"
 

@@ -1,7 +1,7 @@
 // Mean extinction and extinction-weighted mean colour over [front, back], from a table over both
 // ends; within the piece both count as constant. Exact in opacity but for the table's resolution.
 // Source: K. Engel, M. Kraus, T. Ertl, High-Quality Pre-Integrated Volume Rendering, Graphics
-// Hardware 2001, section 3; the table here holds no length, opacity follows from the mean.
+// Hardware 2001; the table here holds no length, opacity follows from the mean.
 // Constants: kPreintegratedSide: entries along each axis.
 // Uses: classify.
 #include "lib/map_cursor.glsl"

@@ -5,8 +5,6 @@ const int kLayerBinding = 0;
 const int kMapBinding = 1;
 const int kMeshBinding = 2;
 
-const int kMapBlockTexels = 996;  // of a layer's maps: with their header 16 KiB, what any GPU has
-
 // Texture units
 const int kMapUnit = 0;
 const int kOpaqueDistanceUnit = 1;
