@@ -15,6 +15,7 @@ namespace volcast::mesh {
 namespace {
 
 constexpr int kVerticesACell = 12;
+constexpr int kVerticesALevelCell = 6;
 constexpr int kCellsAnInstance = 4096;  // An instance costs llvmpipe a quarter of a microsecond.
 
 ProjectionTraits traitsOf(const DrawInputs& inputs) {
@@ -24,7 +25,6 @@ ProjectionTraits traitsOf(const DrawInputs& inputs) {
                             .integrator = inputs.plan->method,
                             .valuesAt = valuesAt(inputs.field),
                             .densityAt = valuesAt(inputs.density),
-                            .lit = inputs.plan->has(plan::kGradient),
                             .interval = inputs.plan->has(plan::kInterval),
                             .clipPlanes = inputs.clipPlanes,
                             .clipsAtStart = clipsAtStart,
@@ -38,23 +38,40 @@ ProjectionTraits traitsOf(const DrawInputs& inputs) {
     return traits;
 }
 
-/// Draws the cells into the blended shares, or those of opaque models into the picture.
+void drawEach(const DrawInputs& inputs, int count, int vertices) {
+    if (count == 0) return;
+    inputs.device->draw(gpu::Primitive::kTriangles, vertices * std::min(count, kCellsAnInstance),
+                        (count + kCellsAnInstance - 1) / kCellsAnInstance);
+}
+
+/// Draws the cells into the blended shares.
 void drawCells(const DrawInputs& inputs, const gpu::Program& program, const CombineState& combine,
                const ProjectionCache& cache) {
-    const gpu::PassState pass{.blend = combine.blend, .depth = combine.depth};
-    if (combine.combine == scene::Combine::kNearest) {
-        inputs.target->begin(pass);
-    } else {
-        cache.shares().begin(pass);
-        cache.shares().clearColour(0, glm::vec4{combine.neutral});
-    }
+    cache.shares().begin({.blend = combine.blend, .depth = combine.depth});
+    cache.shares().clearColour(0, glm::vec4{combine.neutral});
     program.use();
     cache.bind(inputs);
     if (inputs.psiTable != nullptr) inputs.psiTable->bindTexels(shading::shared::kPsiTableUnit);
-    const int cells = MeshBuffers::of(*inputs.meshGpu).cellCount;
-    inputs.device->draw(gpu::Primitive::kTriangles,
-                        kVerticesACell * std::min(cells, kCellsAnInstance),
-                        (cells + kCellsAnInstance - 1) / kCellsAnInstance);
+    drawEach(inputs, MeshBuffers::of(*inputs.meshGpu).cellCount, kVerticesACell);
+}
+
+/// Draws what levels cut out of cells into the picture.
+Result<void> drawLevels(const DrawInputs& inputs, ProjectionCache& cache) {
+    const LevelTraits traits{.valuesAt = valuesAt(inputs.field),
+                             .densityAt = valuesAt(inputs.density),
+                             .lit = inputs.plan->has(plan::kGradient),
+                             .interval = inputs.plan->has(plan::kInterval),
+                             .clipPlanes = inputs.clipPlanes,
+                             .clipsAtStart = inputs.planeDepth <= 0.0};
+    const auto program = inputs.programs->ray(levelRecipe(traits, inputs.constants), kLevelVertex);
+    if (!program) return program.error();
+    if (auto done = cache.prepareLevels(inputs); !done) return done;
+    inputs.target->begin({.depth = gpu::DepthTest::kNearest});
+    (*program)->use();
+    cache.bind(inputs);
+    cache.levels().bind();
+    drawEach(inputs, cache.levels().count(), kVerticesALevelCell);
+    return {};
 }
 
 }  // namespace
@@ -65,7 +82,6 @@ shading::Recipe projectionRecipe(const ProjectionTraits& traits,
     const scene::IntegratorRow* integrator = scene::integratorRow(traits.model, traits.integrator);
     constants.insert(constants.end(), {{"kValuesAt", traits.valuesAt},
                                        {"kDensityAt", traits.densityAt},
-                                       {"kLit", traits.lit},
                                        {"kInterval", traits.interval},
                                        {"kClipPlanes", traits.clipPlanes},
                                        {"kClipsAtStart", traits.clipsAtStart},
@@ -74,7 +90,6 @@ shading::Recipe projectionRecipe(const ProjectionTraits& traits,
                                        {"kPsiTableSide", shading::kPsiTableSide},
                                        {"kCellsAnInstance", kCellsAnInstance}});
     return {.evaluator = traits.sides == Sides::kAll ? "mesh/projection_faces.glsl"
-                         : row.opaque                ? "mesh/projection_opaque.glsl"
                                                      : "mesh/projection.glsl",
             .classify = "classify/transfer_function.glsl",
             .segment = integrator == nullptr ? "" : std::string{integrator->chunk},
@@ -86,10 +101,24 @@ shading::Recipe projectionFinishRecipe(const ProjectionTraits& traits,
                                        std::vector<shading::Constant> constants) {
     shading::Recipe recipe = projectionRecipe(traits, {});
     recipe.evaluator = "mesh/projection_finish.glsl";
-    constants.push_back({"kLit", traits.lit});
     constants.push_back({"kPsiTableSide", shading::kPsiTableSide});
     recipe.constants = std::move(constants);
     return recipe;
+}
+
+shading::Recipe levelRecipe(const LevelTraits& traits, std::vector<shading::Constant> constants) {
+    constants.insert(constants.end(), {{"kValuesAt", traits.valuesAt},
+                                       {"kDensityAt", traits.densityAt},
+                                       {"kLit", traits.lit},
+                                       {"kInterval", traits.interval},
+                                       {"kClipPlanes", traits.clipPlanes},
+                                       {"kClipsAtStart", traits.clipsAtStart},
+                                       {"kCellsAnInstance", kCellsAnInstance}});
+    return {.evaluator = "mesh/level_polygons.glsl",
+            .classify = "classify/transfer_function.glsl",
+            .segment = "",
+            .model = "",
+            .constants = std::move(constants)};
 }
 
 std::unique_ptr<ProjectionState> ProjectionState::create() {
@@ -98,15 +127,14 @@ std::unique_ptr<ProjectionState> ProjectionState::create() {
 
 Result<void> drawProjection(const DrawInputs& inputs, ProjectionState& state) {
     ProjectionCache& cache = ProjectionCache::of(state);
+    const CombineState& combine = stateOf(scene::row(inputs.layer->model).combine);
+    if (combine.combine == scene::Combine::kNearest) return drawLevels(inputs, cache);
     const ProjectionTraits traits = traitsOf(inputs);
-    const CombineState& combine = stateOf(scene::row(traits.model).combine);
-    const bool blended = combine.combine != scene::Combine::kNearest;
     const auto cells =
         inputs.programs->ray(projectionRecipe(traits, inputs.constants), kProjectionVertex);
     if (!cells) return cells.error();
-    if (auto done = cache.prepare(inputs, combine.sorted, blended); !done) return done;
+    if (auto done = cache.prepare(inputs, combine.sorted); !done) return done;
     drawCells(inputs, **cells, combine, cache);
-    if (!blended) return {};
     const auto finish = inputs.programs->ray(projectionFinishRecipe(traits, inputs.constants));
     if (!finish) return finish.error();
     inputs.target->begin({.blend = gpu::Blend::kOver});

@@ -29,6 +29,7 @@ protected:
 /// Draws a layer of any ray model cell by cell: each cell's share of a ray is computed by itself,
 /// and shares are blended. The other evaluator, which draws the same pictures, is drawWalk().
 /// The plan's evaluator kMeshProjectionFaces draws the values at faces alone where that is enough.
+/// Of isosurfaces only the cells that meet a level are drawn, by what the level cuts out of them.
 ///
 /// Errors: kShaderBuild, kOutOfGpuMemory, kLimitExceeded.
 Result<void> drawProjection(const DrawInputs& inputs, ProjectionState& state);
@@ -46,7 +47,6 @@ struct ProjectionTraits {
     scene::Integrator integrator = scene::Integrator::kExact;
     int valuesAt = 0;       ///< Of f; see shaders/shared/mesh_bindings.glsl.
     int densityAt = 3;      ///< Of g; 3: f serves as g.
-    bool lit = false;       ///< Isosurfaces.
     bool interval = false;  ///< Only values in an interval count.
     int clipPlanes = 0;
     bool clipsAtStart = false;  ///< Rays may start within the mesh.
@@ -56,13 +56,29 @@ struct ProjectionTraits {
 /// The vertex file of the programs that draw cells.
 inline constexpr const char* kProjectionVertex = "mesh/projection.vert.glsl";
 
-/// The program that draws cells, behind kProjectionVertex. `constants`: as in DrawInputs.
+/// The program that draws cells, behind kProjectionVertex. Not of opaque models. `constants`: as in
+/// DrawInputs.
 shading::Recipe projectionRecipe(const ProjectionTraits& traits,
                                  std::vector<shading::Constant> constants);
 
-/// The full-screen program that makes a picture of the blended shares. Not of opaque models, whose
-/// cells are drawn into the picture.
+/// The full-screen program that makes a picture of the blended shares.
 shading::Recipe projectionFinishRecipe(const ProjectionTraits& traits,
                                        std::vector<shading::Constant> constants);
+
+/// What tells the programs that draw isosurfaces apart.
+struct LevelTraits {
+    int valuesAt = 0;   ///< Of f.
+    int densityAt = 3;  ///< Of g.
+    bool lit = false;
+    bool interval = false;
+    int clipPlanes = 0;
+    bool clipsAtStart = false;  ///< Rays may start within the mesh.
+};
+
+/// The vertex file of the programs that draw isosurfaces.
+inline constexpr const char* kLevelVertex = "mesh/level_polygons.vert.glsl";
+
+/// The program that draws isosurfaces, behind kLevelVertex. `constants`: as in DrawInputs.
+shading::Recipe levelRecipe(const LevelTraits& traits, std::vector<shading::Constant> constants);
 
 }  // namespace volcast::mesh

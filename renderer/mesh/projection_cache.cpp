@@ -8,14 +8,21 @@
 
 namespace volcast::mesh {
 
-Result<void> ProjectionCache::prepare(const DrawInputs& inputs, bool sorted, bool blended) {
+Result<void> ProjectionCache::prepare(const DrawInputs& inputs, bool sorted) {
     if (auto done = camera_.prepare(inputs); !done) return done;
     if (auto done = findCorners(inputs); !done) return done;
     sorted_ = sorted;
     if (sorted) {
         if (auto done = sort(inputs); !done) return done;
     }
-    return blended ? makeShares(inputs) : Result<void>{};
+    return makeShares(inputs);
+}
+
+Result<void> ProjectionCache::prepareLevels(const DrawInputs& inputs) {
+    if (auto done = camera_.prepare(inputs); !done) return done;
+    if (auto done = findCorners(inputs); !done) return done;
+    sorted_ = false;
+    return levels_.prepare(inputs, corners_);
 }
 
 Result<void> ProjectionCache::findCorners(const DrawInputs& inputs) {

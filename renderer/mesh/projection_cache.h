@@ -7,6 +7,7 @@
 #include "renderer/gpu/target.h"
 #include "renderer/gpu/texture2d.h"
 #include "renderer/mesh/camera_vertices.h"
+#include "renderer/mesh/level_cells.h"
 #include "renderer/mesh/projection.h"
 
 namespace volcast::mesh {
@@ -14,16 +15,21 @@ namespace volcast::mesh {
 /// What stands behind ProjectionState.
 class ProjectionCache final : public ProjectionState {
 public:
-    /// Makes everything fit `inputs`; what is still right is kept. `sorted`: the order of cells
-    /// too, which takes the CPU some 0.1 us a cell. `blended`: with a texture to blend in.
+    /// Makes all that cells need fit `inputs`; what is still right is kept. `sorted`: the order of
+    /// cells too, which takes the CPU some 0.1 us a cell.
     ///
     /// Errors: kShaderBuild, kOutOfGpuMemory, kLimitExceeded.
-    Result<void> prepare(const DrawInputs& inputs, bool sorted, bool blended);
+    Result<void> prepare(const DrawInputs& inputs, bool sorted);
+
+    /// The same for isosurfaces: the cells that meet levels.
+    Result<void> prepareLevels(const DrawInputs& inputs);
 
     /// Binds the mesh block, vertices, cells and their order.
     void bind(const DrawInputs& inputs) const;
 
-    /// What shares of cells are blended in. Needs `blended`.
+    [[nodiscard]] const LevelCells& levels() const noexcept { return levels_; }
+
+    /// What shares of cells are blended in.
     [[nodiscard]] const gpu::Target& shares() const noexcept { return shareTarget_; }
     void bindShares() const;
 
@@ -44,6 +50,7 @@ private:
     std::uint64_t orderCamera_ = 0;  ///< The version of `camera_` that it was sorted for.
     bool sorted_ = false;            ///< The last picture was.
     gpu::Buffer corners_, cells_;
+    LevelCells levels_;
     std::uint64_t cornersMesh_ = 0;
     gpu::Texture2D shares_;
     gpu::Target shareTarget_;

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -92,6 +93,7 @@ struct DrawInputs {
     /// classifies by classify/transfer_function.glsl.
     std::vector<shading::Constant> constants;
     int clipPlanes = 0;                     ///< In the layer block.
+    std::span<const float> levels = {};     ///< Of an isosurface, ascending, as `field` is scaled.
     const gpu::Buffer* psiTable = nullptr;  ///< Where the integrator reads it, else null.
     /// Rays: colour 0, 32F, premultiplied, blended "over" (PassState{.blend = Blend::kOver}).
     /// Opaque models: colour 0 as before (opaque: alpha 1), colour 1 R32F the distance along the

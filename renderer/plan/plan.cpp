@@ -163,11 +163,21 @@ void planCamera(LayerPlan& plan, const Matter& matter, const scene::Camera& came
                 : "the eye is outside the bounds");
 }
 
+/// Each level is drawn by itself; a walk finds any number of them at once, but costs as much as some
+/// ten of them.
+constexpr std::size_t kMostLevelsDrawn = 8;
+
+bool fewLevels(const Layer& layer) {
+    return layer.model == RayModel::kIsosurface &&
+           scene::resolved(layer.levels).size() <= kMostLevelsDrawn;
+}
+
 Evaluator evaluatorFor(const Layer& layer) {
     switch (layer.evaluator) {
+        case scene::MeshEvaluator::kAuto:
+            return fewLevels(layer) ? Evaluator::kMeshProjection : Evaluator::kMeshWalk;
         case scene::MeshEvaluator::kProjection: return Evaluator::kMeshProjection;
         case scene::MeshEvaluator::kProjectionFaces: return Evaluator::kMeshProjectionFaces;
-        case scene::MeshEvaluator::kAuto:
         case scene::MeshEvaluator::kWalk: break;
     }
     return Evaluator::kMeshWalk;
@@ -215,16 +225,23 @@ void planMeshRays(LayerPlan& plan, const Matter& matter, const scene::Accuracy& 
         constant ? "one value a cell" : "values vary within a cell");
     planMethod(plan, matter, wish, evidence);
     planSecondField(plan, matter);
+    const bool levels = matter.layer.model == RayModel::kIsosurface;
+    if (levels) {
+        const bool own = plan.evaluator != Evaluator::kMeshWalk;
+        add(plan, kCellsOfLevels, own,
+            own ? "only cells that meet a level are drawn, by what it cuts out of them"
+                : "one walk finds all levels");
+    }
     if (plan.evaluator == Evaluator::kMeshWalk) {
         add(plan, kReEntry, !matter.summary.convex,
             matter.summary.convex ? "the mesh is convex: a ray leaves it once"
                                   : "the mesh is not convex: rays may come back");
-    } else {
+    } else if (!levels) {
         const bool ordered = scene::row(matter.layer.model).combine == scene::Combine::kUnder;
         add(plan, kVisibilityOrder, ordered,
             ordered ? "cells are blended front to back" : "the order of cells makes no difference");
     }
-    if (matter.layer.model == RayModel::kIsosurface) {
+    if (levels) {
         add(plan, kGradient, matter.layer.headlight,
             matter.layer.headlight ? "lit from the eye" : "unlit, so no gradient is needed");
     }

@@ -19,8 +19,14 @@ bool sameData(const Layer& a, const Layer& b) {
 }
 
 bool isPlainIsosurface(const Layer& layer, const LayerPlan& plan) {
-    return plan.drawn && layer.model == RayModel::kIsosurface && layer.densityField.empty() &&
-           plan.evaluator == Evaluator::kMeshWalk;
+    return plan.drawn && layer.model == RayModel::kIsosurface && layer.densityField.empty();
+}
+
+/// Whether an isosurface may be drawn in the walk of `host`. Alone it may be cheaper without one; in
+/// a volume the walk goes by anyway.
+bool mayWalk(const Layer& layer, const LayerPlan& plan, const Layer& host) {
+    return plan.evaluator == Evaluator::kMeshWalk ||
+           (host.model == RayModel::kVolume && layer.evaluator == scene::MeshEvaluator::kAuto);
 }
 
 void set(LayerPlan& plan, const char* name, bool on, const std::string& reason) {
@@ -31,6 +37,13 @@ void set(LayerPlan& plan, const char* name, bool on, const std::string& reason) 
         found->on = on;
         found->reason = reason;
     }
+}
+
+void drawWith(LayerPlan& plan, const Layer& host) {
+    plan.evaluator = Evaluator::kMeshWalk;
+    plan.drawnWith = host.id;
+    set(plan, kCellsOfLevels, false, "one walk finds all levels");
+    set(plan, kSharedWalk, true, "drawn in the walk of layer \"" + host.id + "\"");
 }
 
 /// The only layer that is not opaque, if that is a volume drawn by a walk; else -1.
@@ -53,7 +66,9 @@ int join(const scene::Scene& scene, FramePlan& frame, std::size_t host, std::siz
     for (std::size_t i = first; i < scene.layers.size(); ++i) {
         const Layer& layer = scene.layers[i];
         if (i == host || !frame.layers[i].drawnWith.empty() ||
-            !isPlainIsosurface(layer, frame.layers[i]) || !sameData(layer, scene.layers[host])) {
+            !isPlainIsosurface(layer, frame.layers[i]) ||
+            !mayWalk(layer, frame.layers[i], scene.layers[host]) ||
+            !sameData(layer, scene.layers[host])) {
             continue;
         }
         const Layer& light = scene.layers[host].model == RayModel::kIsosurface ? scene.layers[host]
@@ -61,9 +76,7 @@ int join(const scene::Scene& scene, FramePlan& frame, std::size_t host, std::siz
                                                                                : *lead;
         if (layer.headlight != light.headlight) continue;
         lead = &light;
-        frame.layers[i].drawnWith = scene.layers[host].id;
-        set(frame.layers[i], kSharedWalk, true,
-            "drawn in the walk of layer \"" + scene.layers[host].id + "\"");
+        drawWith(frame.layers[i], scene.layers[host]);
         ++joined;
     }
     return joined;
@@ -103,7 +116,8 @@ void shareWalks(const scene::Scene& scene, FramePlan& frame) {
     if (volume >= 0) joinVolume(scene, frame, static_cast<std::size_t>(volume));
     for (std::size_t i = 0; i < scene.layers.size(); ++i) {
         if (!frame.layers[i].drawnWith.empty() ||
-            !isPlainIsosurface(scene.layers[i], frame.layers[i])) {
+            !isPlainIsosurface(scene.layers[i], frame.layers[i]) ||
+            frame.layers[i].evaluator != Evaluator::kMeshWalk) {
             continue;
         }
         if (const int joined = join(scene, frame, i, i + 1); joined > 0) {

@@ -46,6 +46,12 @@ void MapTable::bind() const noexcept {
     buffer_.bindTexels(shading::shared::kMapUnit);
 }
 
+std::vector<float> MapTable::levels() const {
+    std::vector<float> values;
+    for (const LevelColour& level : content_.levels) values.push_back(level.value);
+    return values;
+}
+
 std::vector<shading::Constant> MapTable::constants() const {
     return {{.name = "kMapSearch", .value = static_cast<int>(search_)},
             {.name = "kDensitySearch", .value = static_cast<int>(densitySearch_)},

@@ -17,6 +17,7 @@ public:
     Result<void> set(gpu::Device& device, const MapContent& content);
 
     void bind() const noexcept;
+    [[nodiscard]] std::vector<float> levels() const;
     /// What recipes that classify by this table must hold.
     [[nodiscard]] std::vector<shading::Constant> constants() const;
 

@@ -43,6 +43,7 @@ struct LayerDraw {
     const mesh::FieldGpu* field = nullptr;
     const mesh::FieldGpu* density = nullptr;
     const volume::ChannelGpu* channel = nullptr;
+    std::vector<float> levels;  // Of an isosurface.
     std::vector<shading::Constant> constants;
 };
 
@@ -307,6 +308,7 @@ Result<void> DeviceRenderer::prepareLayer(Frame& frame, LayerDraw& draw) {
             state.map.set(device_, layerContent(*draw.layer, *draw.plan, frame.scene->layers,
                                                 frame.plan->layers, draw.dataset->summary()));
         if (!set) return set;
+        draw.levels = state.map.levels();
         const std::vector<shading::Constant> constants = state.map.constants();
         draw.constants.insert(draw.constants.end(), constants.begin(), constants.end());
     }
@@ -409,6 +411,7 @@ Result<void> DeviceRenderer::drawLayer(const Frame& frame, const LayerDraw& draw
         .cameraVersion = frame.cameraVersion,
         .constants = draw.constants,
         .clipPlanes = static_cast<int>(frame.scene->clipPlanes.size()),
+        .levels = draw.levels,
         .psiTable = draw.plan->method == Integrator::kPsiTable ? &psiTable_ : nullptr,
         .target = isOpaque(draw) ? &frame.picture->opaquePass : &frame.picture->transparentPass};
     if (draw.plan->evaluator == plan::Evaluator::kMeshRaster) return mesh::drawSurface(inputs);

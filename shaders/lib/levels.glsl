@@ -8,6 +8,11 @@ vec4 levelAt(int index) {
     return texelFetch(mapTexels, int(mapSections.y) + index);
 }
 
+// Of the isosurface of a level: the level's own, or that of g there.
+vec3 levelColour(int index, float g) {
+    return kTwoMaps ? densityColour(g) : levelAt(index).yzw;
+}
+
 int levelCount() {
     return int(mapExtras.x);
 }

@@ -1,6 +1,6 @@
 // The piece of a pixel's line in a cell that is drawn by one of its faces: the near one, or where
 // rays may start within the mesh the far one, which is before the eye in whatever cell that is in.
-// Constants: kSides; kLit; those of mesh/trim.glsl and mesh/projected_face.glsl.
+// Constants: kSides; those of mesh/trim.glsl and mesh/projected_face.glsl.
 // Uses: model.
 #include "mesh/projected_face.glsl"
 #include "mesh/trim.glsl"
@@ -37,10 +37,9 @@ Segment pieceOf(ProjectedFace face, Corner q, Sight sight) {
 }
 
 // What the pixel's ray gathers in the cell. False: nothing, as where it does not cross it.
-bool gatherCell(out RayState state, out float facing) {
+bool gatherCell(out RayState state) {
     Ray ray = rayThrough(gl_FragCoord.xy);
     state = beginRay(ray);
-    facing = 1.0;
     Sight sight = sightThrough(pictureFrom(gl_FragCoord.xy));
     ProjectedFace face = projectedFace(sight);
     if (!all(leftOf(face))) return false;
@@ -50,10 +49,6 @@ bool gatherCell(out RayState state, out float facing) {
     enterData(state, rest);
     for (int part = 0; part < kMaxParts && rest.extent >= 0.0; ++part) {
         if (stepRay(state, rest)) break;
-    }
-    if (kLit) {
-        facing = facingIn(face.a, face.b, face.c, q,
-                          valuesIn(faceCell, face.a, face.b, face.c, q), sight.slope);
     }
     return true;
 }

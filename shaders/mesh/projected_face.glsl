@@ -27,10 +27,6 @@ bvec3 leftOf(ProjectedFace face) {
                  isLeft(face.areas.z, face.a, face.b));
 }
 
-float worldPerDepth(Sight sight) {
-    return meshView.raySlope.z * sqrt(1.0 + dot(sight.slope, sight.slope));
-}
-
 // The value of a field on a face; at cells it is the same everywhere.
 float projectedValue(int valuesAt, vec3 values, vec3 weights) {
     return valuesAt == kValuesAtCells ? values.x : faceMean(values, weights, values.x);

@@ -9,7 +9,6 @@ layout(location = 0) out vec4 share;
 void main() {
     if (gl_HelperInvocation) return;
     RayState state;
-    float facing;
-    if (!gatherCell(state, facing)) discard;
+    if (!gatherCell(state)) discard;
     share = packRay(state);
 }

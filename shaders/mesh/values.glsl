@@ -1,4 +1,5 @@
 // Fields' values in a cell. Constants: kValuesAt, kDensityAt: where f and g have theirs.
+#include "mesh/corner_values.glsl"
 #include "mesh/walk_state.glsl"
 
 layout(binding = kFieldUnit) uniform samplerBuffer fieldValues;
@@ -8,15 +9,9 @@ struct CellValues {
     float apex;
 };
 
-float pick(vec4 list, int rank) {
-    vec2 pair = rank < 2 ? list.xy : list.zw;
-    return (rank & 1) == 0 ? pair.x : pair.y;
-}
-
 // Values that a cell stores for its corners, which are ordered by vertex number.
 CellValues storedIn(vec4 stored, ivec4 ids) {
-    ivec4 ranks = ivec4(lessThan(ids.xxxx, ids)) + ivec4(lessThan(ids.yyyy, ids)) +
-                  ivec4(lessThan(ids.zzzz, ids)) + ivec4(lessThan(ids.wwww, ids));
+    ivec4 ranks = ranksOf(ids);
     return CellValues(vec3(pick(stored, ranks.x), pick(stored, ranks.y), pick(stored, ranks.z)),
                       pick(stored, ranks.w));
 }

@@ -143,8 +143,7 @@ float facingAt(Walk walk, Sight sight) {
 
 Line lineOf(vec2 pixel) {
     Sight sight = sightThrough(pictureFrom(pixel));
-    return Line(sight, windowOf(rayThrough(pixel), pixel),
-                meshView.raySlope.z * sqrt(1.0 + dot(sight.slope, sight.slope)));
+    return Line(sight, windowOf(rayThrough(pixel), pixel), worldPerDepth(sight));
 }
 
 // What the ray of a pixel gathers, and how far away it was ended by something opaque. False: not

@@ -33,8 +33,7 @@ bool skipsBetween(RayState state, float lo, float hi) {
 
 vec4 endRay(RayState state, float facing) {
     if (state.level < 0) return vec4(0.0);
-    vec3 colour = kTwoMaps ? densityColour(state.g) : levelAt(state.level).yzw;
-    return vec4(colour * (kLit ? facing : 1.0), 1.0);
+    return vec4(levelColour(state.level, state.g) * (kLit ? facing : 1.0), 1.0);
 }
 
 float hitDistance(RayState state) {

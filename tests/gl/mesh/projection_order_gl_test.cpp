@@ -102,6 +102,19 @@ TEST_F(ProjectionOrder, PictureDependsOnTheLatestOfAllThatChanges) {
     step("projection");
     scene.camera = perspective({0.1, 0.2, 0.3}, {0.5, 0.5, 0.5});
     step("camera inside");
+    scene.camera = sceneFor(RayModel::kVolume).camera;
+    scene.layers[0].model = RayModel::kIsosurface;
+    scene.layers[0].field = "p1";
+    scene.layers[0].levels = {.values = {0.2F}};
+    step("an isosurface");
+    scene.layers[0].levels = {.values = {-0.3F, 0.4F}};
+    step("other levels");
+    scene.layers[0].field = "d1";
+    step("another field");
+    scene.camera = scene::orbit(scene.camera, 50.0);
+    step("camera, isosurface");
+    scene.layers[0].levels = {.values = {1.0e6F}};
+    step("a level that no cell meets");
 }
 
 }  // namespace

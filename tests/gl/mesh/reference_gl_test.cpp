@@ -1,5 +1,6 @@
 // Every ray model with every integrator, and every way to choose a part of the data, against the
 // reference in double precision.
+#include "renderer/plan/effects.h"
 #include "renderer/scene/ray_models.h"
 #include "tests/support/against_reference.h"
 
@@ -239,12 +240,21 @@ TEST_F(AgainstReference, LayersShareADepthAndAWalk) {
     // A surface of marked cells stands in the way of all of them.
     add("plate", RayModel::kSurface, "p1").markers = {.field = "mark", .values = {1.0F}};
     expectClose(scene, kSize, 2e-4, "volume, isosurfaces and a surface");
-    // Another volume: nothing can be joined but the isosurfaces.
+    // Another volume: no walk can draw all, and by themselves isosurfaces need none.
     add("other", RayModel::kVolume, "g1");
+    drawn = draw(scene, kSize);
+    for (const std::size_t i : {1, 2}) {
+        EXPECT_EQ(drawn.info.plan.layers[i].drawnWith, "");
+        EXPECT_EQ(drawn.info.plan.layers[i].evaluator, plan::Evaluator::kMeshProjection);
+        EXPECT_TRUE(drawn.info.plan.layers[i].has(plan::kCellsOfLevels));
+    }
+    expectClose(scene, kSize, 2e-4, "two volumes, isosurfaces and a surface");
+    // Where walks are asked for, one does for both.
+    for (const std::size_t i : {1, 2}) scene.layers[i].evaluator = scene::MeshEvaluator::kWalk;
     drawn = draw(scene, kSize);
     EXPECT_EQ(drawn.info.plan.layers[1].drawnWith, "");
     EXPECT_EQ(drawn.info.plan.layers[2].drawnWith, "iso a");
-    expectClose(scene, kSize, 2e-4, "two volumes, isosurfaces and a surface");
+    expectClose(scene, kSize, 2e-4, "two volumes, isosurfaces in a walk and a surface");
 }
 
 }  // namespace

@@ -149,6 +149,7 @@ protected:
     void addMarches();
     void addWalks();
     void addProjections();
+    void addLevels();
     void addWalk(const scene::RayModelRow& row, const scene::IntegratorRow& integrator, int bits);
     void addSurfaces();
     void addOtherPasses();
@@ -231,7 +232,7 @@ void Validator::addWalk(const scene::RayModelRow& row, const scene::IntegratorRo
 void Validator::addProjections() {
     int turn = 0;
     for (const scene::RayModelRow& row : scene::rayModels()) {
-        if (!row.onMeshes || row.chunk.empty()) continue;
+        if (!row.onMeshes || row.chunk.empty() || row.opaque) continue;
         for (const scene::IntegratorRow& integrator : row.integrators) {
             for (int variant = 0; variant < 4; ++variant) {
                 const int bits = variant * 37 + turn++;
@@ -243,7 +244,6 @@ void Validator::addProjections() {
                     .integrator = integrator.integrator,
                     .valuesAt = bits % 3,
                     .densityAt = (bits / 3) % 4,
-                    .lit = row.model == scene::RayModel::kIsosurface && bit(bits, 0),
                     .interval = bit(bits, 1),
                     .clipPlanes = bit(bits, 2) ? 2 : 0,
                     .clipsAtStart = variant == 1,
@@ -252,10 +252,25 @@ void Validator::addProjections() {
                                             : mesh::Sides::kNear};
                 const auto constants = support::layerConstants(bits);
                 addRay(mesh::projectionRecipe(traits, constants), mesh::kProjectionVertex);
-                if (row.opaque) continue;
                 addRay(mesh::projectionFinishRecipe(traits, constants), shading::kFullScreenVertex);
             }
         }
+    }
+}
+
+void Validator::addLevels() {
+    for (int variant = 0; variant < 48; ++variant) {
+        addRay(mesh::levelRecipe({.valuesAt = variant % 3,
+                                  .densityAt = variant % 4,
+                                  .lit = bit(variant, 0),
+                                  .interval = bit(variant, 1),
+                                  .clipPlanes = bit(variant, 2) ? 2 : 0,
+                                  .clipsAtStart = bit(variant, 3)},
+                                 support::layerConstants(variant)),
+               mesh::kLevelVertex);
+    }
+    for (int place = 0; place < 3; ++place) {
+        addCompute("mesh/level_cells.comp.glsl", {{"kValuesAt", place}});
     }
 }
 
@@ -292,6 +307,7 @@ TEST_F(Validator, EveryProgramIsGlslToAnIndependentCompiler) {
     addWalks();
     EXPECT_EQ(programs_, 64 + 17 * kWalkVariants);
     addProjections();
+    addLevels();
     addSurfaces();
     addOtherPasses();
     EXPECT_GT(stages_.size(), 300U);

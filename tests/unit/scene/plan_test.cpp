@@ -112,6 +112,22 @@ TEST_F(Plan, OnlyNonConvexMeshesAreReEntered) {
     EXPECT_EQ(planned().integrator, "exact");
 }
 
+TEST_F(Plan, FewLevelsAreDrawnAloneAndManyInOneWalk) {
+    layer_.dataset = "mesh";
+    layer_.model = RayModel::kIsosurface;
+    layer_.levels = {.spacing = scene::Levels::Spacing::kLinear, .first = 11, .last = 19, .count = 8};
+    EXPECT_EQ(planned().evaluator, Evaluator::kMeshProjection);
+    EXPECT_TRUE(planned().has(kCellsOfLevels));
+    EXPECT_FALSE(lists(planned(), kReEntry));
+    layer_.levels.count = 9;
+    EXPECT_EQ(planned().evaluator, Evaluator::kMeshWalk);
+    EXPECT_FALSE(planned().has(kCellsOfLevels));
+    EXPECT_TRUE(lists(planned(), kReEntry));
+    layer_.levels.count = 1;
+    layer_.evaluator = scene::MeshEvaluator::kWalk;
+    EXPECT_EQ(planned().evaluator, Evaluator::kMeshWalk);
+}
+
 TEST_F(Plan, OneValueACellNeedsNoInterpolation) {
     layer_.dataset = "mesh";
     EXPECT_TRUE(planned().has(kInterpolation));
