@@ -200,6 +200,19 @@ TEST_F(AgainstReference, EveryIntegratorIsExactWhereTheFieldIsConstant) {
     }
 }
 
+// A map without a bend in the data's range and with one extinction: psi and linear_opacity are
+// exact.
+TEST_F(AgainstReference, LinearColoursInConstantExtinction) {
+    useBox(false);
+    Scene scene = withModel(cameras()[0], RayModel::kVolume, "p1");
+    scene.layers[0].map = {{{.value = 0.0F, .colour = {0.1F, 0.9F, 0.0F}, .extinction = 3.0F},
+                            {.value = 1.0F, .colour = {1.0F, 0.1F, 0.5F}, .extinction = 3.0F}}};
+    for (const Integrator integrator : {Integrator::kLinearOpacity, Integrator::kPsi}) {
+        scene.layers[0].integrator = integrator;
+        expectClose(scene, kSize, 1e-5, std::string{scene::name(integrator)});
+    }
+}
+
 // From cheap to exact, none is worse than the one it improves on.
 TEST_F(AgainstReference, BetterIntegratorsAreBetter) {
     useBox(false);
