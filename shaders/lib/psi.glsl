@@ -55,8 +55,8 @@ vec3 psiWeights(float a, float b) {
     if (m < 2.0) {
         float mm = m * m;
         float x = 0.5 * m;
-        // hidden = 1 - sqrt(z), so alpha = 2 hidden - hidden^2 = m - 2 excess - hidden^2: where m is
-        // small the others hardly count, and only this difference rounds.
+        // hidden = 1 - sqrt(z), so alpha = 2 hidden - hidden^2 = m - 2 excess - hidden^2: where m
+        // is small the others hardly count, and only this difference rounds.
         float excess = x * x * (0.499999851 + x * (-0.166663662 + x * (0.0416474678 +
                        x * (-0.0082762083 + x * (0.00130112644 + x * -0.000129130916)))));
         float hidden = x - excess;

@@ -1,11 +1,11 @@
-// The share of one piece with linear colour and linear extinction, from a table: returns (h, alpha),
-// so that the piece adds alpha ((1 - h) front + h back). a, b: optical depths of its near and its
-// far end, >= 0; above 1e24 they count as 1e24.
+// The share of one piece with linear colour and linear extinction, from a table: returns
+// (h, alpha), so that the piece adds alpha ((1 - h) front + h back). a, b: optical depths of its
+// near and its far end, >= 0; above 1e24 they count as 1e24.
 //
-// A deep piece shows of its near end what is not hidden, to a depth of about 1: h goes to 1/a, or to
-// sqrt(pi/(2 b)) where a = 0, and in between it depends on a/sqrt(b) alone. So with p, which is b
-// where that is small and 2 sqrt(b) where it is large, the table holds
-//     h (c + a + p)  over  u = (a + p)/(c + a + p)  along rows  and  v = p/(a + p)  from row to row,
+// A deep piece shows what is near its front, to a depth of about 1: h goes to 1/a, or where a = 0
+// to sqrt(pi/(2 b)), and in between h a depends on a/sqrt(b) alone. So with p, which is b where
+// that is small and 2 sqrt(b) where it is large, the table holds
+//     h (c + a + p)  over  u = (a + p)/(c + a + p) along rows and v = p/(a + p) from row to row,
 // c = kPsiTableMiddle, kPsiTableSide entries each, made by renderer/shading/psi_table.cpp. That is
 // smooth and between 1 and 3.5 up to u = 1, infinite depth.
 // Constants: kPsiTableSide.
