@@ -27,16 +27,18 @@ float psiRising(float c, float r) {
 }
 
 // What replaces it for e = -f < 0 and leaves the same difference: dawson(x)/sqrt(f) with
-// x = c/(2 sqrt(f)). Written as 2 x dawson(x) / c, which hardly depends on a rounded x where x is
-// large; beyond x = 3 a polynomial in 1/(4 x x).
+// x = c/(2 sqrt(f)). Up to x = 3 as g dawson(x)/x with g = x/sqrt(f), which also makes x x: where
+// x is large, both errors of a rounded g cancel. Beyond, 2 x dawson(x) / c, a polynomial in
+// 1/(4 x x).
 float psiFalling(float c, float f) {
     if (c * c < 36.0 * f) {
-        float u = 0.25 * c * c / f;
+        float g = 0.5 * c / f;
+        float u = 0.5 * c * g;
         float up = 1.0 + u * (-0.0930278897 + u * (0.0365199707 + u * (-0.000559670967 +
                    u * (0.000150506938 + u * -1.33929893e-06))));
         float down = 1.0 + u * (0.573639512 + u * (0.152274594 + u * (0.0241903737 +
                      u * (0.00242569111 + u * 0.000150602253))));
-        return 2.0 * u * up / (max(c, 1.0e-30) * down);
+        return up * (g / down);
     }
     float w = 1.0 / c;
     float y = f * w * w;
@@ -81,7 +83,7 @@ vec3 psiWeights(float a, float b) {
             float r = sqrt(e);
             back = psiRising(a, r) - z - z * psiRising(b, r);
         } else {
-            back = psiFalling(a, -e) - z - z * psiFalling(b, -e);
+            back = psiFalling(a, -e) - (z + z * psiFalling(b, -e));
         }
     }
     // The factor is the largest float32 whose product with alpha cannot round above 2/3 alpha.
