@@ -30,7 +30,7 @@ enum class RayModel {
 enum class Integrator {
     kAuto,           ///< Whatever the plan finds best.
     kAverage,        ///< volume: the map at the mean of both ends.
-    kLinearOpacity,  ///< volume: mean extinction, colour weighted as in a thin segment.
+    kLinearOpacity,  ///< volume: linear colour and opacity, by an approximation.
     kPsiTable,       ///< volume: linear extinction and emission, weights from a table.
     kPsi,            ///< volume: linear extinction and emission, in closed form.
     kPreintegrated,  ///< volume: colour and extinction from a table over both ends.

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "renderer/shading/shared.h"
+
 namespace volcast::shading {
 namespace {
 
@@ -31,39 +33,44 @@ void addLight(double a, double b, double from, double to, Light& light) {
     }
 }
 
+/// Where A(t) = a t + (b - a) t^2 / 2 is `depth`.
+double placeOf(double a, double b, double depth) {
+    const double root = std::sqrt(std::max(a * a + 2.0 * (b - a) * depth, 0.0));
+    return std::min(2.0 * depth / (a + root), 1.0);
+}
+
 }  // namespace
 
 double backShare(double a, double b) {
     const double m = 0.5 * (a + b);
     if (!(m > 0.0)) return 0.5;
-    // Pieces grow from the eye on: near it a deep piece decides everything.
+    // Pieces grow in depth, from a 200th of what shows: exp(-40) of the light is beyond it.
+    constexpr double kNothingBehind = 40.0;
     constexpr int kPieces = 14;
-    const double first = std::min(1.0, 1.0 / (1.0 + std::max(a, std::sqrt(b)))) / 4.0;
-    const double growth = std::pow(1.0 / first, 1.0 / (kPieces - 1));
     Light light;
-    double from = 0.0, to = first;
-    for (int i = 0; i < kPieces; ++i) {
-        if (i + 1 == kPieces) to = 1.0;
+    double from = 0.0;
+    for (int i = 1; i <= kPieces; ++i) {
+        const double share = static_cast<double>(i) / kPieces;
+        const double depth = std::min(m, kNothingBehind) * share * share;
+        const double to = depth < m ? placeOf(a, b, depth) : 1.0;
         addLight(a, b, from, to, light);
         from = to;
-        to *= growth;
     }
     return light.far / light.all;
 }
 
 std::vector<float> makePsiTable() {
+    const double kMiddle = shared::kPsiTableMiddle;
     std::vector<float> table;
     table.reserve(static_cast<std::size_t>(kPsiTableSide) * kPsiTableSide);
     const auto share = [](int i) { return static_cast<double>(i) / (kPsiTableSide - 1); };
     for (int row = 0; row < kPsiTableSide; ++row) {
         for (int column = 0; column < kPsiTableSide; ++column) {
-            // The last column is infinitely deep; a depth that exp() still tells from that serves.
-            const double u = std::min(share(column), 1.0 - 1e-4), v = share(row);
-            const double root = u / (1.0 - u), m = std::max(root * root, 1e-12);
-            // a : b = (1 - v)^2 : v^2 with (a + b)/2 = m.
-            const double near = (1.0 - v) * (1.0 - v), far = v * v;
-            const double unit = 2.0 * m / (near + far);
-            table.push_back(static_cast<float>(backShare(near * unit, far * unit)));
+            // Near enough to nothing and to infinity: the entries are 1e-8 from those limits.
+            const double u = std::clamp(share(column), 1e-9, 1.0 - 1e-8), v = share(row);
+            const double sum = kMiddle * u / (1.0 - u), p = v * sum;
+            const double a = sum - p, b = p + 0.25 * p * p;
+            table.push_back(static_cast<float>(backShare(a, b) * (kMiddle + sum)));
         }
     }
     return table;

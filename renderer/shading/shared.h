@@ -2,7 +2,7 @@
 
 #include <glm/glm.hpp>
 
-/// What C++ and GLSL both read: structs of uniform blocks and binding numbers.
+/// What C++ and GLSL both read: structs of uniform blocks, binding numbers, constants.
 namespace volcast::shading::shared {
 
 using glm::mat4;
@@ -10,5 +10,6 @@ using glm::vec4;
 
 #include "shaders/shared/bindings.glsl"
 #include "shaders/shared/layer_block.glsl"
+#include "shaders/shared/psi_table.glsl"
 
 }  // namespace volcast::shading::shared

@@ -27,16 +27,18 @@ float psiRising(float c, float r) {
 }
 
 // What replaces it for e = -f < 0 and leaves the same difference: dawson(x)/sqrt(f) with
-// x = c/(2 sqrt(f)). Written as 2 x dawson(x) / c, which hardly depends on a rounded x where x is
-// large; beyond x = 3 a polynomial in 1/(4 x x).
+// x = c/(2 sqrt(f)). Up to x = 3 as g dawson(x)/x with g = x/sqrt(f), which also makes x x: where
+// x is large, both errors of a rounded g cancel. Beyond, 2 x dawson(x) / c, a polynomial in
+// 1/(4 x x).
 float psiFalling(float c, float f) {
     if (c * c < 36.0 * f) {
-        float u = 0.25 * c * c / f;
+        float g = 0.5 * c / f;
+        float u = 0.5 * c * g;
         float up = 1.0 + u * (-0.0930278897 + u * (0.0365199707 + u * (-0.000559670967 +
                    u * (0.000150506938 + u * -1.33929893e-06))));
         float down = 1.0 + u * (0.573639512 + u * (0.152274594 + u * (0.0241903737 +
                      u * (0.00242569111 + u * 0.000150602253))));
-        return 2.0 * u * up / (max(c, 1.0e-30) * down);
+        return up * (g / down);
     }
     float w = 1.0 / c;
     float y = f * w * w;
@@ -55,8 +57,11 @@ vec3 psiWeights(float a, float b) {
     if (m < 2.0) {
         float mm = m * m;
         float x = 0.5 * m;
-        float rootLessOne = x * (-0.999997914 + x * (0.499969006 + x * (-0.166490227 +
-                            x * (0.0411767326 + x * (-0.00761395087 + x * 0.000835823826)))));
+        // hidden = 1 - sqrt(z), so alpha = 2 hidden - hidden^2 = m - 2 excess - hidden^2: where m
+        // is small the others hardly count, and only this difference rounds.
+        float excess = x * x * (0.499999851 + x * (-0.166663662 + x * (0.0416474678 +
+                       x * (-0.0082762083 + x * (0.00130112644 + x * -0.000129130916)))));
+        float hidden = x - excess;
         float n0 = mm * (-0.0833333358 + mm * (-0.00208334276 + mm * (-1.85921363e-05 +
                    mm * -8.87652902e-08)));
         float n1 = -4.96730479e-09 + mm * (0.00416668085 + mm * (3.71898641e-05 +
@@ -67,12 +72,10 @@ vec3 psiWeights(float a, float b) {
         float n4 = 6.60977676e-05 + mm * 7.79443894e-07;
         float n5 = 3.01462978e-06 + mm * 3.42338708e-08 + e * 1.17733919e-07;
         float n = n0 + e * (n1 + e * (n2 + e * (n3 + e * (n4 + e * n5))));
-        float lead = e * (1.0 / 6.0);
-        alpha = m + mm * (-0.499999434 + m * (0.166659951 + m * (-0.0416385792 +
-                m * (0.00827646535 + m * (-0.00132573186 + m * (0.000158277602 +
-                m * -1.03884449e-05))))));
+        float odd = e * (1.0 / 6.0) + n;
+        alpha = m - (2.0 * excess + hidden * hidden);
         alpha = m < 1.0e-37 ? 0.0 : alpha;
-        back = 0.5 * alpha + (lead + (n + rootLessOne * (lead + n)));
+        back = 0.5 * alpha + (odd - hidden * odd);
     } else {
         float z = exp(-m);
         alpha = 1.0 - z;
@@ -80,7 +83,7 @@ vec3 psiWeights(float a, float b) {
             float r = sqrt(e);
             back = psiRising(a, r) - z - z * psiRising(b, r);
         } else {
-            back = psiFalling(a, -e) - z - z * psiFalling(b, -e);
+            back = psiFalling(a, -e) - (z + z * psiFalling(b, -e));
         }
     }
     // The factor is the largest float32 whose product with alpha cannot round above 2/3 alpha.

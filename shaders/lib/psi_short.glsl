@@ -7,7 +7,7 @@
 //     h = 1/2 + m / (2 sinh(m/2)) int y (1 + 2 r y) exp(-m y - m r (y y - 1/4)) dy,
 // so h - 1/2 changes sign with (m, r): it is r o(m^2, r^2) + m k(m^2, r^2). The polynomials are
 // minimax in the relative error of h, 2.1e-7, and of alpha, 8e-8 (tests/support/numerics/fit_psi.py);
-// measured in float32: h 3.5e-7, alpha 2.0e-7, the back weight 4.6e-7. h <= 2/3 always.
+// measured in float32: h 3.5e-7, alpha 2.0e-7, the back weight 4.9e-7. h <= 2/3 always.
 // Needs no exp, erfc or Dawson; outside max(a, b) <= 1/2 it is wrong: use psi.glsl.
 // Source of the weights: K. Moreland, E. Angel, A Fast High Accuracy Volume Renderer for
 // Unstructured Data, VolVis 2004, section 3.

@@ -1,7 +1,8 @@
-// Extinction grows evenly from one end to the other, and colours count as they would if the piece
-// were thin: exact to first order in its depth.
-// Source: K. Moreland, E. Angel, A Fast High Accuracy Volume Renderer for Unstructured Data, IEEE
-// VolVis 2004, section 4.
+// Colour and opacity linear between what the map gives at both ends, by an approximation without
+// erfc or Dawson: opacity exact where the map is linear between the ends, colour where extinction
+// is also the same at both.
+// Source: K. Moreland, Fast High Accuracy Volume Rendering, PhD thesis, University of New Mexico,
+// 2004, section 1.3.2.
 // Uses: classify.
 #include "lib/map_cursor.glsl"
 #include "lib/linear_opacity.glsl"

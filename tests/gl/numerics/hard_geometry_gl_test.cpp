@@ -1,4 +1,5 @@
-// The rows of hard_cases.csv about geometry: lengths of rays, from the opacity of thin fog.
+// The rows of hard_cases.csv about geometry: lengths of rays, from the opacity of thin fog; where
+// they enter and leave, from the extremes of a field that is the distance along them.
 #include <array>
 #include <map>
 #include <string>
@@ -23,14 +24,39 @@ protected:
         const auto scene = sceneOf(camera, scene::RayModel::kVolume, support::fog(kThin));
         return support::lengthOf(draw(scene, {1, 1}).at(0, 0).a, kThin);
     }
+    /// What the row says of where the ray from `origin` along `direction`, of length 1, enters and
+    /// leaves the cells; `tolerance` relative to the way out.
+    void expectEnds(const dvec3& origin, const dvec3& direction, double tolerance) {
+        data::MeshInput input = cells_;
+        support::addField(input, "t", data::Association::kVertex,
+                          [&](const dvec3& p) { return glm::dot(p - origin, direction); });
+        use(std::move(input));
+        const double enters = support::after(row_[3], "t_in=");
+        const double leaves = support::after(row_[3], "t_out=");
+        const auto high = static_cast<float>(2.0 * leaves);
+        const auto camera =
+            support::orthographic(origin, origin + direction, 0.01, {0.31, 0.73, 0.17});
+        const auto extreme = [&](scene::RayModel model) {
+            const auto scene = sceneOf(camera, model, support::ruler(0.0F, high), "t");
+            return static_cast<double>(draw(scene, {1, 1}).at(0, 0).r) * high;
+        };
+        EXPECT_NEAR(extreme(scene::RayModel::kMinip), enters, tolerance * leaves);
+        EXPECT_NEAR(extreme(scene::RayModel::kMip), leaves, tolerance * leaves);
+        endsSeen_ = true;
+    }
     void useCells(std::vector<dvec3> points, std::vector<std::array<std::int64_t, 4>> cells) {
-        use(data::MeshInput{.points = std::move(points), .cells = std::move(cells), .fields = {}});
+        cells_ = {.points = std::move(points), .cells = std::move(cells), .fields = {}};
+        use(cells_);
     }
     void useTetrahedron(double height, double scale = 1.0, double offset = 0.0) {
         std::vector<dvec3> points{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, height}};
         for (dvec3& p : points) p = p * scale + offset;
         useCells(std::move(points), {{0, 1, 2, 3}});
     }
+
+    data::MeshInput cells_;
+    support::Row row_;       ///< The one that is checked.
+    bool endsSeen_ = false;  ///< Its entry and exit were looked at.
 
     const std::map<std::string, void (HardGeometry::*)()> checks_{
         {"unit tet, axis ray", &HardGeometry::axisRay},
@@ -46,6 +72,7 @@ protected:
     void axisRay() {
         useTetrahedron(1.0);
         EXPECT_NEAR(lengthFrom({.25, .25, -1}, {0, 0, 1}), 0.5, 1e-6);
+        expectEnds({.25, .25, -1}, {0, 0, 1}, 1e-6 / 1.5);
     }
     // Four cells around the edge x = y = 0.
     void throughVertex() {
@@ -70,6 +97,7 @@ protected:
     void offset() {
         useTetrahedron(1.0, 1000.0, 1e6);
         EXPECT_NEAR(lengthFrom({1e6 + 250, 1e6 + 250, 1e6 - 1000}, {0, 0, 1}), 500.0, 5e-4);
+        expectEnds({1e6 + 250, 1e6 + 250, 1e6 - 1000}, {0, 0, 1}, 1e-6);
     }
     // Another cell far aside, so that there is a mesh.
     void zeroVolume() {
@@ -88,6 +116,7 @@ protected:
     void eyeInside() {
         useTetrahedron(1.0);
         EXPECT_NEAR(lengthFrom({.1, .1, .1}, {0, 0, 1}), 0.7, 1e-6);
+        expectEnds({.1, .1, .1}, {0, 0, 1}, 1e-6 / 0.7);
     }
     // What is exact in the walk is read from an opacity: 2^-22 of a length of up to 7.
     void kuhnCube() {
@@ -112,7 +141,10 @@ TEST_F(HardGeometry, EveryRow) {
     for (const support::Row& row : rows) {
         SCOPED_TRACE(row[1]);
         ASSERT_EQ(checks_.count(row[1]), 1U);
+        row_ = row;
+        endsSeen_ = false;
         (this->*checks_.at(row[1]))();
+        EXPECT_EQ(endsSeen_, row[3].find("t_in=") != std::string::npos);
     }
 }
 

@@ -1,13 +1,9 @@
 // The rows of hard_cases.csv that are about single segments, through the chunks of the ray models.
-#include <array>
 #include <cmath>
 
-#include "renderer/gpu/target.h"
-#include "renderer/scene/map_table.h"
-#include "renderer/shading/shared.h"
 #include "tests/support/gl_test.h"
 #include "tests/support/numerics/hard_cases.h"
-#include "tests/support/numerics/weights_probe.h"
+#include "tests/support/numerics/segments_probe.h"
 
 namespace volcast {
 namespace {
@@ -17,11 +13,6 @@ using support::allowed;
 using support::must;
 using support::Row;
 using support::rowsOf;
-
-struct Answer {
-    glm::vec4 colour;
-    float hitDistance;
-};
 
 /// `count` segments of `extent` each; all go from f0 to f1, so each is entered anew.
 struct OneRay {
@@ -64,54 +55,13 @@ data::TransferFunction mapOf(const std::vector<glm::dvec2>& colours,
 
 class HardSegments : public support::GlTest {
 protected:
-    static Answer cast(const std::string& segment, const std::string& model,
-                       const scene::MapContent& content, const OneRay& ray) {
-        scene::MapTable table;
-        must(table.set(device(), content));
-        shading::ProgramCache programs{device(), support::chunksWithProbes()};
-        auto constants = table.constants();
-        constants.push_back({"kLit", false});
-        const auto* program =
-            must(programs.ray({.evaluator = "segments.glsl",
-                               .classify = "classify/transfer_function.glsl",
-                               .segment = segment.empty() ? "" : "segment/" + segment + ".glsl",
-                               .model = "model/" + model + ".glsl",
-                               .constants = std::move(constants)}));
-        const std::vector<glm::vec4> rays{{0.0F, static_cast<float>(ray.count), 0.0F, 0.0F}};
-        std::vector<glm::vec4> segments;
-        for (int i = 0; i < ray.count; ++i) {
-            segments.emplace_back(ray.f0, ray.f1, ray.extent, 0.0F);
-            segments.emplace_back(1.0F, 0.0F, 0.0F, 0.0F);
-        }
-        const auto texels = [](const std::vector<glm::vec4>& values) {
-            return must(gpu::Buffer::create(device(),
-                                            {.bytes = values.size() * sizeof(glm::vec4),
-                                             .texels = gpu::TexelFormat::kRgba32F,
-                                             .label = "segments"},
-                                            std::as_bytes(std::span{values})));
-        };
-        shading::shared::LayerBlock layer{};
-        layer.gather = {1.0F, 1.0F, -3.4e38F, 3.4e38F};
-        const auto block =
-            must(gpu::Buffer::create(device(), {.bytes = sizeof layer, .label = "layer"},
-                                     std::as_bytes(std::span{&layer, 1})));
-        const auto answer = must(gpu::Texture2D::create(device(), {.label = "answer"}));
-        const auto detail = must(gpu::Texture2D::create(device(), {.label = "detail"}));
-        const std::array colours{&answer, &detail};
-        const auto target = must(gpu::Target::create(device(), "segments", colours));
-        const auto rayTexels = texels(rays);
-        const auto segmentTexels = texels(segments);
-        target.begin({});
-        program->use();
-        table.bind();
-        block.bindUniform(shading::shared::kLayerBinding);
-        rayTexels.bindTexels(5);
-        segmentTexels.bindTexels(6);
-        device().draw(gpu::Primitive::kTriangles, 3);
-        std::array<float, 4> pixel{}, more{};
-        target.readRgba32F(pixel, 0);
-        target.readRgba32F(more, 1);
-        return {{pixel[0], pixel[1], pixel[2], pixel[3]}, more[0]};
+    static support::ProbedAnswer cast(const std::string& integrator, const std::string& model,
+                                      const scene::MapContent& content, const OneRay& ray) {
+        const support::ProbedSegment segment{.front = ray.f0, .back = ray.f1, .extent = ray.extent};
+        const std::vector<support::ProbedRay> rays{
+            support::ProbedRay(static_cast<std::size_t>(ray.count), segment)};
+        support::SegmentsProbe probe{device()};
+        return must(probe({.segment = integrator, .model = model}, content, rays)).at(0);
     }
     static float number(const std::string& text, const std::string& key) {
         return static_cast<float>(after(text, key));

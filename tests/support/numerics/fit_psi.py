@@ -75,12 +75,10 @@ def thin():
     fit = minimax(np.stack([m ** i * e ** j for i, j in terms], 1),
                   values - np.float64(np.float32(1 / 6)) * e, weights)
     show(f'N, m^i e^j {terms}', *fit)
-    half = chebyshev(1e-9, 1, 200)
-    show('exp(-x), x <= 1', *polynomial(half, np.exp(-half), 6))
-    m = chebyshev(1e-9, 2, 200)
-    value = -np.expm1(-m) / m
-    show('((1 - exp(-m))/m - 1)/m, m <= 2',
-         *minimax(m[:, None] ** np.arange(1, 8), value - 1, 1 / value))
+    x = chebyshev(1e-4, 1, 200)
+    value = -np.expm1(-x)
+    show('(x - (1 - exp(-x)))/x^2, x <= 1',
+         *minimax(x[:, None] ** np.arange(6), (x - value) / x ** 2, x ** 2 / value))
 
 
 def thick():

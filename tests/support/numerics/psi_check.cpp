@@ -2,11 +2,13 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <cstdlib>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "tests/support/numerics/psi_file.h"
+#include "tests/support/numerics/psi_samples.h"
 #include "tests/support/numerics/weight_errors.h"
 #include "tests/support/numerics/weights_probe.h"
 
@@ -16,7 +18,9 @@ using namespace volcast;
 
 constexpr std::array<std::string_view, 5> kMethods{"psi", "psi_table", "linear_opacity", "average",
                                                    "psi_short"};
+constexpr int kMostSamples = 1000000;
 constexpr const char* kHelp = R"(psi_check [--method METHOD] FILE.csv
+psi_check [--method METHOD] --random COUNT
 
 Runs shaders/lib/psi.glsl on the GL device (Mesa's llvmpipe where there is no GPU) over a file with
 the columns tau_f_D, tau_b_D, zeta, w_front, w_back, and prints the worst errors with their inputs.
@@ -24,6 +28,8 @@ The depths are rounded to float32.
 
   --method METHOD  psi (default), psi_table, linear_opacity, average, or psi_short, which takes only
                    rows with both depths at most 0.5
+  --random COUNT   instead of a file: COUNT pairs of depths each from T, U and W below, and COUNT
+                   from the edges of these squares; what is right from renderer/reference
   --help           this text
 
 A row is past tolerance if a weight is off by more than 4e-6 of itself plus 1e-36, is below 0 or not
@@ -82,6 +88,7 @@ int check(std::string_view method, std::vector<support::PsiRow> rows) {
 int main(int count, char** arguments) {
     std::string method = "psi";
     std::string file;
+    int random = 0;
     for (int i = 1; i < count; ++i) {
         const std::string_view argument = arguments[i];
         if (argument == "--help") {
@@ -90,17 +97,25 @@ int main(int count, char** arguments) {
         }
         if (argument == "--method" && i + 1 < count) {
             method = arguments[++i];
+        } else if (argument == "--random" && i + 1 < count) {
+            random = std::atoi(arguments[++i]);
+            if (random < 1 || random > kMostSamples) {
+                return fail(2, "--random needs a number from 1 to " + std::to_string(kMostSamples));
+            }
         } else if (argument.starts_with("--") || !file.empty()) {
             return fail(2, "unexpected argument \"" + std::string{argument} + "\"; see --help");
         } else {
             file = argument;
         }
     }
-    if (file.empty()) return fail(2, "no FILE.csv given; see --help");
+    if (file.empty() == (random == 0)) {
+        return fail(2, "needs FILE.csv or --random COUNT; see --help");
+    }
     if (std::find(kMethods.begin(), kMethods.end(), method) == kMethods.end()) {
         return fail(2, "unknown method \"" + method +
                            "\"; allowed: psi, psi_table, linear_opacity, average, psi_short");
     }
+    if (random > 0) return check(method, support::samplePsi(random, 1));
     auto rows = support::readPsiFile(file);
     if (!rows) return fail(2, rows.error().message);
     return check(method, std::move(*rows));

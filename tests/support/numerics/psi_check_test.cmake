@@ -13,6 +13,9 @@ file(MAKE_DIRECTORY ${FOLDER})
 expect(0 "319 rows.*\n0 of 319 rows past" ${FILE})
 expect(1 "319 rows" ${FILE} --method average)
 expect(0 "" --help)
+expect(1 "4000 rows" --random 1000 --method average)
+expect(2 "FILE.csv or --random" ${FILE} --random 1000)
+expect(2 "from 1 to" --random none)
 
 # One row that is right, one whose back weight is 5e-6 too large.
 file(READ ${FILE} text)
