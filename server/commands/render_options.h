@@ -14,6 +14,7 @@ struct RenderOptions {
     // the measurement
     int frames = 0;
     double orbitDegrees = 36.0;
+    float levelStep = 0.0F;
 };
 
 /// Registers every option; wrong values are refused when the command line is read.

@@ -5,7 +5,7 @@
 // (wFront, wBack, alpha). With m = (a + b)/2, e = (b - a)/2 and z = exp(-m):
 //     alpha = 1 - z,  wBack = Psi - z,  Psi = int_0^1 exp(-a s - e s s) ds.
 // Source: K. Moreland, E. Angel, A Fast High Accuracy Volume Renderer for Unstructured Data, VolVis
-// 2004, section 3. Their closed form loses all digits in float32 for thin or even segments, so:
+// 2004. Their closed form loses all digits in float32 for thin or even segments, so:
 //   m < 2   about the middle, y in [-1/2, 1/2]: wBack = alpha/2 + sqrt(z) (e/6 + N),
 //           e/6 + N = int y (m + 2 e y) exp(-m y - e (y y - 1/4)) dy, entire and even in m: a
 //           polynomial in (m m, e) without a division, whose terms all vanish with m and e.

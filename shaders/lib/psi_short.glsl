@@ -10,7 +10,7 @@
 // measured in float32: h 3.5e-7, alpha 2.0e-7, the back weight 4.9e-7. h <= 2/3 always.
 // Needs no exp, erfc or Dawson; outside max(a, b) <= 1/2 it is wrong: use psi.glsl.
 // Source of the weights: K. Moreland, E. Angel, A Fast High Accuracy Volume Renderer for
-// Unstructured Data, VolVis 2004, section 3.
+// Unstructured Data, VolVis 2004.
 vec2 psiShort(float m, float r) {
     float mm = m * m;
     float rr = r * r;

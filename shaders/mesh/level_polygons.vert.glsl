@@ -96,7 +96,7 @@ vec3 gradientIn(Cell cell) {
 }
 
 bool isWanted(float level) {
-    return !kInterval || (level > layer.gather.z && level <= layer.gather.w);
+    return !kInterval || (level >= layer.gather.z && level <= layer.gather.w);
 }
 
 void main() {

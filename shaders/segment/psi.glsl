@@ -1,7 +1,7 @@
 // Extinction and colour linear between what the map gives at both ends, integrated in closed form.
 // Exact where the map is linear between the ends.
 // Source: K. Moreland, E. Angel, A Fast High Accuracy Volume Renderer for Unstructured Data, IEEE
-// VolVis 2004, section 3.
+// VolVis 2004.
 // Uses: classify.
 #include "lib/map_cursor.glsl"
 #include "lib/psi.glsl"

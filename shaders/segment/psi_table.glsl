@@ -1,6 +1,6 @@
 // As segment/psi.glsl, with the weights from a table over both depths: partial pre-integration.
 // Source: K. Moreland, E. Angel, A Fast High Accuracy Volume Renderer for Unstructured Data, IEEE
-// VolVis 2004, section 5; the table holds the share of the back end instead of Psi.
+// VolVis 2004; the table holds the share of the back end instead of Psi.
 // Uses: classify.
 #include "lib/map_cursor.glsl"
 #include "lib/psi_table.glsl"

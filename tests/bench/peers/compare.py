@@ -74,12 +74,21 @@ class Case:
         self.options, self.folder, self.label, self.size = options, folder, label, size
         self.data, self.field, self.camera, self.table = data, field, camera, table
         self.rows, self.truth, self.cells = {}, None, 0
+        self.low, self.high = self.range()
+
+    def range(self):
+        found = run([self.options.volcast, "import", self.data, "--json"], self.options.timeout)
+        field = next(f for f in found["fields"] if f["name"] == self.field)
+        return field["min"], field["max"]
 
     def ours(self, model, integrator):
         raw = self.folder / "ours.f32"
         command = [self.options.volcast, "render", self.data, "--field", self.field, "--camera", self.camera,
                    "--tf", self.table, "--model", model, "--size", str(self.size), str(self.size),
                    "--frames", str(self.options.frames), "--raw", str(raw)]
+        if model == "isosurface":  # The level changes from frame to frame, as that of the contour filter does.
+            step = 0.02 * (self.high - self.low)
+            command += ["--levels", str(self.low + 20 * step), "--level-step", str(step)]
         if integrator:
             command += ["--integrator", integrator]
         found = run(command, self.options.timeout)

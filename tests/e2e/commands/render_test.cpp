@@ -111,6 +111,8 @@ TEST(RenderCommand, WrongOptionsAreUsageErrors) {
                                                {"demo:mesh", "--scale-domain", "1"},
                                                {"demo:mesh", "--interval", "1", "nan"},
                                                {"demo:mesh", "--levels", "inf"},
+                                               {"demo:mesh", "--level-step", "1"},
+                                               {"demo:mesh", "--levels", "1", "--level-step", "nan"},
                                                {"demo:mesh", "--level-spacing", "log"},
                                                {"demo:mesh", "--edge-width", "0"},
                                                {"demo:mesh", "--extinction-scale", "-1"},
