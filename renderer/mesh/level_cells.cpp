@@ -42,9 +42,9 @@ Result<void> LevelCells::prepare(const DrawInputs& inputs, const gpu::Buffer& co
     const auto found = list(inputs, corners);
     if (!found) return found.error();
     if (*found > static_cast<std::uint32_t>(std::numeric_limits<std::int32_t>::max())) {
-        return fail(ErrorCode::kLimitExceeded,
-                    "isosurface: cells meet levels " + std::to_string(*found) +
-                        " times, at most 2147483647 can be drawn");
+        return fail(ErrorCode::kLimitExceeded, "isosurface: cells meet levels " +
+                                                   std::to_string(*found) +
+                                                   " times, at most 2147483647 can be drawn");
     }
     if (*found > 1) {
         if (auto done = makeList(*inputs.device, list_, *found); !done) return done;
@@ -56,11 +56,10 @@ Result<void> LevelCells::prepare(const DrawInputs& inputs, const gpu::Buffer& co
 }
 
 Result<void> LevelCells::upload(const DrawInputs& inputs) {
-    auto values = gpu::Buffer::create(*inputs.device,
-                                      {.bytes = inputs.levels.size_bytes(),
-                                       .texels = gpu::TexelFormat::kR32F,
-                                       .label = "levels"},
-                                      std::as_bytes(inputs.levels));
+    auto values = gpu::Buffer::create(
+        *inputs.device,
+        {.bytes = inputs.levels.size_bytes(), .texels = gpu::TexelFormat::kR32F, .label = "levels"},
+        std::as_bytes(inputs.levels));
     if (!values) return values.error();
     values_ = std::move(*values);
     if (found_.valid()) return {};

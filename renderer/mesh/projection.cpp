@@ -89,8 +89,8 @@ shading::Recipe projectionRecipe(const ProjectionTraits& traits,
                                        {"kSides", static_cast<int>(traits.sides)},
                                        {"kPsiTableSide", shading::kPsiTableSide},
                                        {"kCellsAnInstance", kCellsAnInstance}});
-    return {.evaluator = traits.sides == Sides::kAll ? "mesh/projection_faces.glsl"
-                                                     : "mesh/projection.glsl",
+    return {.evaluator =
+                traits.sides == Sides::kAll ? "mesh/projection_faces.glsl" : "mesh/projection.glsl",
             .classify = "classify/transfer_function.glsl",
             .segment = integrator == nullptr ? "" : std::string{integrator->chunk},
             .model = std::string{row.chunk},

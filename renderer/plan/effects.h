@@ -26,7 +26,7 @@ inline constexpr const char* kVisibilityOrder = "visibility order";  ///< Cells 
 inline constexpr const char* kLevelsInVolume = "isosurfaces in the volume";
 inline constexpr const char* kSharedWalk = "shared walk";
 inline constexpr const char* kCellsOfLevels =
-    "cells of levels";  ///< Isosurface: only cells that meet a level.
+    "cells of levels";                               ///< Isosurface: only cells that meet a level.
 inline constexpr const char* kReEntry = "re-entry";  ///< A ray may leave the mesh and come back.
 inline constexpr const char* kInterpolation = "interpolation";    ///< Values vary within a cell.
 inline constexpr const char* kColourByValue = "colour by value";  ///< Surface: C(f).

@@ -163,8 +163,8 @@ void planCamera(LayerPlan& plan, const Matter& matter, const scene::Camera& came
                 : "the eye is outside the bounds");
 }
 
-/// Each level is drawn by itself; a walk finds any number of them at once, but costs as much as some
-/// ten of them.
+/// Each level is drawn by itself; a walk finds any number of them at once, but costs as much as
+/// some ten of them.
 constexpr std::size_t kMostLevelsDrawn = 8;
 
 bool fewLevels(const Layer& layer) {

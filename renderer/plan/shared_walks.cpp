@@ -22,8 +22,8 @@ bool isPlainIsosurface(const Layer& layer, const LayerPlan& plan) {
     return plan.drawn && layer.model == RayModel::kIsosurface && layer.densityField.empty();
 }
 
-/// Whether an isosurface may be drawn in the walk of `host`. Alone it may be cheaper without one; in
-/// a volume the walk goes by anyway.
+/// Whether an isosurface may be drawn in the walk of `host`. Alone it may be cheaper without one;
+/// in a volume the walk goes by anyway.
 bool mayWalk(const Layer& layer, const LayerPlan& plan, const Layer& host) {
     return plan.evaluator == Evaluator::kMeshWalk ||
            (host.model == RayModel::kVolume && layer.evaluator == scene::MeshEvaluator::kAuto);

@@ -21,13 +21,12 @@ Result<void> MapTable::set(gpu::Device& device, const MapContent& content) {
         buffer_.update(0, bytes);
     } else {
         // Room for a few more points, so that adding one while editing stays an update.
-        Result<gpu::Buffer> buffer =
-            gpu::Buffer::create(device,
-                                {.bytes = bytes.size() * 2,
-                                 .updatable = true,
-                                 .texels = gpu::TexelFormat::kRgba32F,
-                                 .label = "transfer function"},
-                                bytes);
+        Result<gpu::Buffer> buffer = gpu::Buffer::create(device,
+                                                         {.bytes = bytes.size() * 2,
+                                                          .updatable = true,
+                                                          .texels = gpu::TexelFormat::kRgba32F,
+                                                          .label = "transfer function"},
+                                                         bytes);
         if (!buffer) return buffer.error();
         buffer_ = std::move(*buffer);
     }

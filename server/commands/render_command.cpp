@@ -54,7 +54,8 @@ Result<Times> measure(OfflineRenderer& renderer, const workers::RenderRequest& f
         request.wantFloat = false;
         request.scene.camera = scene::orbit(first.scene.camera, k * options.orbitDegrees);
         for (scene::Layer& layer : request.scene.layers) {
-            for (float& level : layer.levels.values) level += static_cast<float>(k) * options.levelStep;
+            for (float& level : layer.levels.values)
+                level += static_cast<float>(k) * options.levelStep;
         }
         const auto frame = renderer.draw(std::move(request));
         if (!frame) return frame.error();

@@ -18,7 +18,8 @@ void addOptions(CLI::App& command, RenderOptions& o) {
     command.add_option("--orbit", o.orbitDegrees, "Degrees from frame to frame, about up")
         ->check(finite())
         ->capture_default_str();
-    command.add_option("--level-step", o.levelStep, "Added to each of --levels from frame to frame")
+    command
+        .add_option("--level-step", o.levelStep, "Added to each of --levels from frame to frame")
         ->check(finite())
         ->needs(command.get_option("--levels"));
 }

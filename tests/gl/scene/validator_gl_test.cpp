@@ -239,17 +239,16 @@ void Validator::addProjections() {
                 const bool all =
                     variant == 0 && scene::serves(scene::MeshEvaluator::kProjectionFaces, row.model,
                                                   integrator.integrator);
-                const mesh::ProjectionTraits traits{
-                    .model = row.model,
-                    .integrator = integrator.integrator,
-                    .valuesAt = bits % 3,
-                    .densityAt = (bits / 3) % 4,
-                    .interval = bit(bits, 1),
-                    .clipPlanes = bit(bits, 2) ? 2 : 0,
-                    .clipsAtStart = variant == 1,
-                    .sides = all            ? mesh::Sides::kAll
-                             : variant == 1 ? mesh::Sides::kFar
-                                            : mesh::Sides::kNear};
+                const mesh::ProjectionTraits traits{.model = row.model,
+                                                    .integrator = integrator.integrator,
+                                                    .valuesAt = bits % 3,
+                                                    .densityAt = (bits / 3) % 4,
+                                                    .interval = bit(bits, 1),
+                                                    .clipPlanes = bit(bits, 2) ? 2 : 0,
+                                                    .clipsAtStart = variant == 1,
+                                                    .sides = all            ? mesh::Sides::kAll
+                                                             : variant == 1 ? mesh::Sides::kFar
+                                                                            : mesh::Sides::kNear};
                 const auto constants = support::layerConstants(bits);
                 addRay(mesh::projectionRecipe(traits, constants), mesh::kProjectionVertex);
                 addRay(mesh::projectionFinishRecipe(traits, constants), shading::kFullScreenVertex);

@@ -115,7 +115,8 @@ TEST_F(Plan, OnlyNonConvexMeshesAreReEntered) {
 TEST_F(Plan, FewLevelsAreDrawnAloneAndManyInOneWalk) {
     layer_.dataset = "mesh";
     layer_.model = RayModel::kIsosurface;
-    layer_.levels = {.spacing = scene::Levels::Spacing::kLinear, .first = 11, .last = 19, .count = 8};
+    layer_.levels.spacing = scene::Levels::Spacing::kLinear;
+    layer_.levels.count = 8;
     EXPECT_EQ(planned().evaluator, Evaluator::kMeshProjection);
     EXPECT_TRUE(planned().has(kCellsOfLevels));
     EXPECT_FALSE(lists(planned(), kReEntry));
