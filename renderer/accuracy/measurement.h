@@ -35,6 +35,7 @@ struct Job {
     Candidate candidate = {};
     int frames = 0;            ///< Draws to time, after one that warms up; 0: errors alone.
     std::uint64_t pixels = 0;  ///< To compare, spread over the picture; 0: all.
+    bool countsSteps = false;  ///< In one more frame, which is not timed.
 };
 
 /// What drawing a scene with one candidate is worth, and what it costs.
@@ -43,7 +44,9 @@ struct Measurement {
     Errors inner;  ///< Without pixels near a silhouette, where rounding may decide what is hit.
     double medianMs = 0.0, minMs = 0.0, maxMs = 0.0;  ///< Of one draw at full size.
     int frames = 0;
-    double cellsPerRay = 0.0;  ///< Mean over the compared pixels; how many cells a ray meets.
+    double cellsPerRay = 0.0;  ///< Mean over the compared pixels; what the reference's rays meet.
+    std::uint64_t walkSteps = 0;   ///< Of all rays of one picture; see mesh::WalkState::steps().
+    std::uint64_t cellsDrawn = 0;  ///< In one picture, by the projection.
     plan::Evaluator evaluator = plan::Evaluator::kMeshWalk;  ///< What drew the layer.
     std::string integrator;                                  ///< As in plans.
 };

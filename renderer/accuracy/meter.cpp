@@ -98,6 +98,17 @@ Result<void> Meter::time(const Job& job, const scene::Scene& scene, Measurement&
     return {};
 }
 
+Result<void> Meter::count(const Job& job, const scene::Scene& scene, const std::string& drawn,
+                          Measurement& measured) {
+    const auto frame = renderer_.render(kView, scene, job.size, {.countsSteps = true});
+    if (!frame) return frame.error();
+    const auto steps = std::ranges::find(frame->steps, drawn, &scene::LayerSteps::layer);
+    if (steps == frame->steps.end()) return {};
+    measured.walkSteps = steps->walkSteps;
+    measured.cellsDrawn = steps->cellsDrawn;
+    return {};
+}
+
 Result<Measurement> Meter::measure(const Job& job) {
     if (job.candidate.layer >= job.scene.layers.size()) {
         return fail(ErrorCode::kInvalidArgument, "layer " + std::to_string(job.candidate.layer) +
@@ -112,9 +123,12 @@ Result<Measurement> Meter::measure(const Job& job) {
     const plan::LayerPlan& plan = frame->plan.layers.at(job.candidate.layer);
     measured.evaluator = plan.evaluator;
     measured.integrator = plan.integrator;
-    const Result<void> timed = time(job, scene, measured);
+    Result<void> drawn = time(job, scene, measured);
+    if (drawn && job.countsSteps) {
+        drawn = count(job, scene, plan.drawnWith.empty() ? plan.layer : plan.drawnWith, measured);
+    }
     renderer_.dropView(kView);
-    if (!timed) return timed.error();
+    if (!drawn) return drawn.error();
     const auto truth = truthOf(job.scene, job.size, job.pixels);
     if (!truth) return truth.error();
     const std::vector<glm::ivec2>& pixels = (*truth)->pixels;

@@ -17,8 +17,9 @@ class Meter {
 public:
     explicit Meter(scene::Renderer& renderer) noexcept : renderer_{renderer} {}
 
-    /// Draws job.frames + 1 pictures in a view of its own. The frames that are timed turn the
-    /// camera by a thousandth of a degree each, so that none is a repetition.
+    /// Draws job.frames + 1 pictures in a view of its own, and one more where steps are counted.
+    /// The frames that are timed turn the camera by a thousandth of a degree each, so that none is
+    /// a repetition.
     ///
     /// Errors: as scene::Renderer::render and reference::draw; kInvalidArgument for a layer that
     /// the scene does not have; kUnsupported for voxel volumes.
@@ -42,6 +43,9 @@ private:
     Result<const Truth*> truthOf(const scene::Scene& scene, scene::PictureSize size,
                                  std::uint64_t pixels);
     Result<void> time(const Job& job, const scene::Scene& scene, Measurement& measured);
+    /// `drawn`: the layer in whose draw the candidate's is.
+    Result<void> count(const Job& job, const scene::Scene& scene, const std::string& drawn,
+                       Measurement& measured);
 
     scene::Renderer& renderer_;
     reference::Casters casters_;

@@ -124,7 +124,8 @@ Result<void> measure(OfflineRenderer& renderer, std::vector<Planned>& rows,
                                           .size = {options.scene.size[0], options.scene.size[1]},
                                           .candidate = planned.candidate,
                                           .frames = options.frames,
-                                          .pixels = options.sample});
+                                          .pixels = options.sample,
+                                          .countsSteps = true});
         if (measured) {
             planned.row.measured = *std::move(measured);
         } else if (measured.error().code == ErrorCode::kDeviceLost) {
@@ -206,7 +207,11 @@ void addAccuracyCommand(CLI::App& app, int& exitCode) {
         "accuracy", "Measures what each ray model, integrator and evaluator is worth, and costs");
     command->footer(
         "Errors are in linear light against a reference in double precision; a * marks what no\n"
-        "other row of its model beats in error (rms) and time.\n"
+        "other row of its model beats in error (rms) and time. Cells per ray are those that the\n"
+        "reference's rays meet; steps per ray are what the walk's shader took (a cell crossed, "
+        "one\n"
+        "more part of a split piece, the search for entries where a mesh is not convex); cells\n"
+        "drawn are the projection's.\n"
         "Exit code: 0 done, 1 failed, 2 wrong options.");
     addOptions(*command, *options);
     command->callback([options, &exitCode] { exitCode = run(*options); });

@@ -39,6 +39,13 @@ TEST(AccuracyCommand, MeasuresEveryModelWithAllThatServesIt) {
         EXPECT_EQ(row.at("error").as_object().at("pixels").to_number<int>(), 48 * 40);
         EXPECT_GT(row.at("median_ms").to_number<double>(), 0.0);
         EXPECT_GT(row.at("cells_per_ray").to_number<double>(), 0.0);
+        const std::string evaluator = textOf(row, "evaluator");
+        EXPECT_EQ(row.contains("walk_steps"), evaluator == "walk") << json::serialize(row);
+        const bool projected = evaluator.starts_with("projection");
+        ASSERT_EQ(row.contains("cells_drawn"), projected) << json::serialize(row);
+        if (projected) {
+            EXPECT_EQ(row.at("cells_drawn"), all.at("cells")) << json::serialize(row);
+        }
         EXPECT_NE(run.out.find(textOf(row, "integrator")), std::string::npos);
     }
     for (const scene::RayModelRow& model : scene::rayModels()) {
