@@ -36,6 +36,7 @@ struct Job {
     int frames = 0;            ///< Draws to time, after one that warms up; 0: errors alone.
     std::uint64_t pixels = 0;  ///< To compare, spread over the picture; 0: all.
     bool countsSteps = false;  ///< In one more frame, which is not timed.
+    friend bool operator==(const Job&, const Job&) = default;
 };
 
 /// What drawing a scene with one candidate is worth, and what it costs.

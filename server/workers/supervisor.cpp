@@ -117,13 +117,14 @@ void Supervisor::accept(Inbox& inbox) {
     for (const Inbox::DatasetChange& dataset : inbox.datasets) change(dataset);
     for (const std::uint64_t view : inbox.droppedViews) {
         views_.drop(view);
-        measures_.erase(view);
+        stopMeasure(view);
         if (main_) main_->dropView(view);
     }
     for (auto& [view, timed] : inbox.requests) {
         views_.submit(std::move(timed.request), timed.submitted);
     }
-    for (auto& [view, request] : inbox.measures) measures_[view] = std::move(request);
+    for (const std::uint64_t view : inbox.stoppedMeasures) stopMeasure(view);
+    for (auto& [view, request] : inbox.measures) measures_.submit(std::move(request));
 }
 
 void Supervisor::change(const Inbox::DatasetChange& change) {
@@ -172,6 +173,7 @@ void Supervisor::handle(Worker& worker, const WorkerProcess::Answer& answer) {
     }
     if (answer.has_failed()) return refuse(answer.failed());
     if (answer.has_rendered()) return finish(answer.rendered());
+    if (answer.has_measuring()) return continueMeasure(answer.measuring().request());
     if (answer.has_measured()) {
         return finishMeasure(answer.measured().request(),
                              worker::measurementFrom(answer.measured()));
@@ -234,7 +236,7 @@ void Supervisor::refuse(const internal::v1::Failed& failed) {
         spdlog::error("dataset {}: {}", failed.dataset(), error.message);
         return;
     }
-    if (measuring_) return finishMeasure(failed.request(), error);
+    if (measures_.inHand()) return finishMeasure(failed.request(), error);
     if (!inFlight_ || failed.request() != inFlight_->number) {
         return lose(main_, "refused a picture nobody asked for");
     }
@@ -244,7 +246,7 @@ void Supervisor::refuse(const internal::v1::Failed& failed) {
 }
 
 void Supervisor::dispatch() {
-    while (main_ && main_->ready() && !inFlight_ && !measuring_) {
+    while (main_ && main_->ready() && !inFlight_ && !measures_.inHand()) {
         auto next = views_.next();
         if (!next) return dispatchMeasure();
         const RenderRequest& request = next->request;
@@ -262,22 +264,40 @@ void Supervisor::dispatch() {
 }
 
 void Supervisor::dispatchMeasure() {
-    if (measures_.empty()) return;
-    auto node = measures_.extract(measures_.begin());
-    MeasureRequest request = std::move(node.mapped());
-    auto asked = main_->measure(nextNumber_, request.job, settings_.measureDeadline);
-    measuring_ = {.request = std::move(request), .number = nextNumber_};
-    if (!asked) return finishMeasure(nextNumber_++, asked.error());
-    ++nextNumber_;
+    const MeasureRequest* request = measures_.next(Clock::now());
+    if (request == nullptr) return;
+    measureNumber_ = nextNumber_++;
+    auto asked = main_->measure(measureNumber_, request->job, settings_.frameDeadline);
+    if (!asked) return finishMeasure(measureNumber_, asked.error());
     static_cast<void>(main_->flush());
 }
 
-void Supervisor::finishMeasure(std::uint64_t number, const Result<accuracy::Measurement>& result) {
-    if (!measuring_ || number != measuring_->number) {
+void Supervisor::continueMeasure(std::uint64_t number) {
+    if (!measures_.inHand() || number != measureNumber_) {
         return lose(main_, "measured what nobody asked for");
     }
-    const Measuring done = *std::exchange(measuring_, std::nullopt);
-    if (events_.measured) events_.measured(done.request.view, done.request.tag, result);
+    const auto late = measures_.goOn(Clock::now());
+    if (!late) return;
+    main_->stopMeasuring();
+    tell(*late,
+         fail(ErrorCode::kTimeout, "the measurement missed its deadline of " +
+                                       std::to_string(settings_.measureDeadline.count()) + " ms"));
+}
+
+void Supervisor::stopMeasure(std::uint64_t view) {
+    if (measures_.stop(view) && main_) main_->stopMeasuring();
+}
+
+void Supervisor::tell(const MeasureRequest& request,
+                      const Result<accuracy::Measurement>& result) const {
+    if (events_.measured) events_.measured(request.view, request.tag, result);
+}
+
+void Supervisor::finishMeasure(std::uint64_t number, const Result<accuracy::Measurement>& result) {
+    if (!measures_.inHand() || number != measureNumber_) {
+        return lose(main_, "measured what nobody asked for");
+    }
+    tell(measures_.finish(), result);
 }
 
 void Supervisor::checkTimes() {
@@ -319,11 +339,12 @@ void Supervisor::startFailed(const Error& error) {
     spdlog::error("GL worker cannot be started: {}; next try in {} ms", error.message,
                   backOff_.delay().count());
     if (main_ || backOff_.failures() < kFailuresToGiveUp) return;
+    const Error lost =
+        fail(ErrorCode::kDeviceLost, "the lost GL worker cannot be replaced: " + error.message);
+    for (const MeasureRequest& request : measures_.takeAll()) tell(request, lost);
     for (const RenderRequest& request : views_.takeAll()) {
         if (!events_.failed) break;
-        events_.failed(request.view, request.tag,
-                       fail(ErrorCode::kDeviceLost,
-                            "the lost GL worker cannot be replaced: " + error.message));
+        events_.failed(request.view, request.tag, lost);
     }
 }
 
@@ -352,10 +373,7 @@ void Supervisor::lose(Worker& worker, const std::string& reason) {
 
 void Supervisor::loseMain() {
     ++generation_;
-    if (measuring_) {
-        finishMeasure(measuring_->number,
-                      fail(ErrorCode::kDeviceLost, "the GL worker was lost: " + lastLoss_));
-    }
+    const auto unmeasured = measures_.lost(Clock::now());
     auto inFlight = std::exchange(inFlight_, std::nullopt);
     std::optional<RenderRequest> request;
     if (inFlight) request = std::move(inFlight->request);
@@ -363,6 +381,9 @@ void Supervisor::loseMain() {
     startWorkers();
     dispatch();
     if (events_.recovering && !loss.views.empty()) events_.recovering(loss.views);
+    for (const MeasureRequest& givenUp : unmeasured) {
+        tell(givenUp, fail(ErrorCode::kDeviceLost, "the GL worker was lost: " + lastLoss_));
+    }
     for (const RenderRequest& givenUp : loss.givenUp) {
         if (!events_.failed) break;
         events_.failed(
