@@ -78,6 +78,24 @@ TEST(Measuring, EndsWithAnErrorAfterTwoLosses) {
     EXPECT_TRUE(service.draw(turned(service, 3)));
 }
 
+TEST(Measuring, AWorkerThatHangsInAPartCostsTheMeasurementAndNoOtherWorker) {
+    workers::RenderSettings settings = quickSettings();
+    settings.frameDeadline = milliseconds{8'000};
+    const Service service = startService(settings);
+    ASSERT_TRUE(service.service);
+    service.service->measure(longMeasurement(service));
+    ASSERT_TRUE(service.draw(turned(service, 1)));
+    ASSERT_EQ(::kill(service.pid(), SIGSTOP), 0);
+    const auto measured = service.events->waitForMeasurement(1);
+    ASSERT_TRUE(measured);
+    ASSERT_FALSE(measured->has_value());
+    EXPECT_EQ(measured->error().code, ErrorCode::kDeviceLost);
+    EXPECT_NE(measured->error().message.find("8000 ms for a measurement"), std::string::npos)
+        << measured->error().message;
+    EXPECT_TRUE(service.draw(turned(service, 2)));
+    EXPECT_EQ(service.service->status().losses, 1U);
+}
+
 TEST(Measuring, PastItsDeadlineItEndsAndTheWorkerLivesOn) {
     workers::RenderSettings settings = quickSettings();
     settings.measureDeadline = milliseconds{20};

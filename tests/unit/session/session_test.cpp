@@ -184,6 +184,22 @@ TEST_F(SessionTest, AChangeOfTheViewStopsItsMeasurement) {
     EXPECT_EQ(render.stopped, std::vector<std::uint64_t>{render.measures[0].view});
 }
 
+TEST_F(SessionTest, WhatFailsToBeMeasuredIsARowWithTheReasonAndTheNextIsMeasured) {
+    openView();
+    drawLast();
+    ASSERT_NE(waitFor("CODEC_JPEG"), "");
+    say(R"({"measureAccuracy":{"view":4}})");
+    ASSERT_EQ(render.measures.size(), 1U);
+    events.measured(render.measures[0].view, render.measures[0].tag,
+                    fail(ErrorCode::kTimeout, "missed its deadline of 5 ms"));
+    EXPECT_NE(waitFor("missed its deadline of 5 ms"), "");
+    ASSERT_EQ(render.measures.size(), 2U);
+    EXPECT_NE(render.measures[1].job.candidate, render.measures[0].job.candidate);
+    say(R"({"update":{"view":4,"inputSeq":"2","viewport":{"width":9,"height":9}}})");
+    drawLast();
+    EXPECT_NE(waitFor("CODEC_JPEG"), "");
+}
+
 TEST_F(SessionTest, RepliesThatNobodyReadsAreBounded) {
     say(R"({"hello":{"major":1}})");
     for (int i = 0; i < 2000 && !session->closing(); ++i) say(R"({"ping":{"token":"1"}})");
