@@ -1,6 +1,7 @@
 #include "renderer/accuracy/meter.h"
 
 #include <algorithm>
+#include <ctime>
 #include <sys/resource.h>
 #include <thread>
 #include <utility>
@@ -39,6 +40,12 @@ int threadCount() {
     return static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
 }
 
+double threadCpuSeconds() {
+    timespec now{};
+    ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return static_cast<double>(now.tv_sec) + static_cast<double>(now.tv_nsec) * 1e-9;
+}
+
 double medianOf(const std::vector<double>& sorted) {
     const std::size_t half = sorted.size() / 2;
     return sorted.size() % 2 == 1 ? sorted[half] : 0.5 * (sorted[half - 1] + sorted[half]);
@@ -70,38 +77,45 @@ Meter::Meshes Meter::meshesOf(const scene::Scene& scene) const {
 
 Result<Meter::Answer> Meter::ask(const Question& question, reference::Casters casters,
                                  const Meshes& meshes, const std::atomic<bool>* cancelled) {
+    const double start = threadCpuSeconds();
     for (const auto& [id, mesh] : meshes) {
         if (!casters.contains(id)) casters[id] = reference::makeCaster(*mesh);
     }
+    const double treeSeconds = threadCpuSeconds() - start;
     auto picture = reference::draw(question.scene, casters, question.size, question.pixels,
                                    threadCount(), cancelled);
     if (!picture) return std::move(picture).error();
-    return Answer{.picture = *std::move(picture), .casters = std::move(casters)};
+    return Answer{
+        .picture = *std::move(picture), .casters = std::move(casters), .treeSeconds = treeSeconds};
 }
 
-const Meter::Truth* Meter::known(const Question& question) {
+Meter::Truth* Meter::known(const Question& question) {
     const auto found = std::ranges::find(truths_, question, &Truth::question);
     if (found == truths_.end()) return nullptr;
     truths_.splice(truths_.begin(), truths_, found);
     return &truths_.front();
 }
 
-const Meter::Truth* Meter::keep(Question question, Answer answer) {
+Meter::Truth* Meter::keep(Question question, Answer answer) {
     casters_.merge(answer.casters);
-    truths_.push_front({.question = std::move(question), .picture = std::move(answer.picture)});
+    const ReferenceEffort effort{.rays = answer.picture.rays,
+                                 .raySeconds = answer.picture.cpuSeconds,
+                                 .treeSeconds = answer.treeSeconds};
+    truths_.push_front(
+        {.question = std::move(question), .picture = std::move(answer.picture), .effort = effort});
     if (truths_.size() > kTruthsKept) truths_.pop_back();
     return &truths_.front();
 }
 
-Result<const Meter::Truth*> Meter::truthOf(const Question& question) {
-    if (const Truth* truth = known(question)) return truth;
+Result<Meter::Truth*> Meter::truthOf(const Question& question) {
+    if (Truth* truth = known(question)) return truth;
     auto answer = ask(question, casters_, meshesOf(question.scene), nullptr);
     if (!answer) return std::move(answer).error();
     return keep(question, *std::move(answer));
 }
 
-Result<const Meter::Truth*> Meter::searchFor(const Question& question) {
-    if (const Truth* truth = known(question)) return truth;
+Result<Meter::Truth*> Meter::searchFor(const Question& question) {
+    if (Truth* truth = known(question)) return truth;
     if (!search_ || search_->question != question) {
         search_.reset();
         search_ = std::make_unique<Search>();
@@ -114,7 +128,7 @@ Result<const Meter::Truth*> Meter::searchFor(const Question& question) {
         search_->answer = std::async(std::launch::async, work);
     }
     if (search_->answer.wait_for(kPatience) != std::future_status::ready) {
-        return static_cast<const Truth*>(nullptr);
+        return static_cast<Truth*>(nullptr);
     }
     const std::unique_ptr<Search> ended = std::move(search_);
     auto answer = ended->answer.get();
@@ -174,7 +188,7 @@ Result<bool> Meter::drawNext(Run& run) {
     return true;
 }
 
-Measurement Meter::finish(Run& run, const Truth& truth) {
+Measurement Meter::finish(Run& run, Truth& truth) {
     Measurement measured = std::move(run.measured);
     if (!run.times.empty()) {
         std::ranges::sort(run.times);
@@ -189,6 +203,7 @@ Measurement Meter::finish(Run& run, const Truth& truth) {
     measured.inner = off.inner;
     measured.cellsPerRay =
         static_cast<double>(truth.picture.piecesVisited) / static_cast<double>(pixels.size());
+    measured.reference = std::exchange(truth.effort, {});
     return measured;
 }
 
@@ -211,8 +226,8 @@ Result<std::optional<Measurement>> Meter::advance(const Job& job) {
         if (!run) return std::move(run).error();
         run_ = *std::move(run);
     }
-    const Truth* none = nullptr;
-    Result<const Truth*> truth = none;
+    Truth* none = nullptr;
+    Result<Truth*> truth = none;
     if (run_->drawn > 0) {  // The picture to compare is drawn; times wait until no thread is busy.
         truth = searchFor(run_->question);
         if (truth && *truth == none) return std::nullopt;

@@ -57,10 +57,12 @@ private:
     struct Truth {
         Question question;
         reference::Picture picture;
+        ReferenceEffort effort = {};  ///< Until it is told.
     };
     struct Answer {
         reference::Picture picture;
-        reference::Casters casters;  ///< Also those that had to be made.
+        reference::Casters casters;  ///< Also those that had to be made,
+        double treeSeconds = 0.0;    ///< in this time.
     };
     /// The reference at work, in the background.
     struct Search {
@@ -89,15 +91,15 @@ private:
     static Result<Answer> ask(const Question& question, reference::Casters casters,
                               const Meshes& meshes, const std::atomic<bool>* cancelled);
     /// Null: not known.
-    const Truth* known(const Question& question);
-    const Truth* keep(Question question, Answer answer);
-    Result<const Truth*> truthOf(const Question& question);
+    Truth* known(const Question& question);
+    Truth* keep(Question question, Answer answer);
+    Result<Truth*> truthOf(const Question& question);
     /// In the background; null: not known yet.
-    Result<const Truth*> searchFor(const Question& question);
+    Result<Truth*> searchFor(const Question& question);
     static Result<Run> begin(const Job& job, std::uint64_t view);
     /// Draws the next picture; false: there was none left.
     Result<bool> drawNext(Run& run);
-    static Measurement finish(Run& run, const Truth& truth);
+    static Measurement finish(Run& run, Truth& truth);
 
     scene::Renderer& renderer_;
     reference::Casters casters_;

@@ -53,6 +53,9 @@ internal::v1::Measured toMessage(const accuracy::Measurement& measurement) {
     message.set_cells_per_ray(measurement.cellsPerRay);
     message.set_walk_steps(measurement.walkSteps);
     message.set_cells_drawn(measurement.cellsDrawn);
+    message.set_reference_rays(measurement.reference.rays);
+    message.set_reference_ray_seconds(measurement.reference.raySeconds);
+    message.set_reference_tree_seconds(measurement.reference.treeSeconds);
     message.set_evaluator(name(measurement.evaluator));
     message.set_integrator(measurement.integrator);
     return message;
@@ -86,6 +89,9 @@ accuracy::Measurement measurementFrom(const internal::v1::Measured& message) {
             .cellsPerRay = message.cells_per_ray(),
             .walkSteps = message.walk_steps(),
             .cellsDrawn = message.cells_drawn(),
+            .reference = {.rays = message.reference_rays(),
+                          .raySeconds = message.reference_ray_seconds(),
+                          .treeSeconds = message.reference_tree_seconds()},
             .evaluator = evaluatorNamed(message.evaluator()),
             .integrator = message.integrator()};
 }

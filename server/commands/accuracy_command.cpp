@@ -185,9 +185,10 @@ Result<void> measureAll(const AccuracyOptions& options) {
                     .rows = {}};
     for (Planned& planned : *rows) run.rows.push_back(std::move(planned.row));
     markFronts(run.rows);
-    std::printf("%s: %llu cells, %d x %d pixels, %d frames each, %s\n%s\n%s\n", run.data.c_str(),
+    std::printf("%s: %llu cells, %d x %d pixels, %d frames each, %s\n%s%s\n%s\n", run.data.c_str(),
                 static_cast<unsigned long long>(run.cells), run.size.x, run.size.y, run.frames,
-                run.gl.c_str(), tableOf(run).c_str(), run.command.c_str());
+                run.gl.c_str(), tableOf(run).c_str(), referenceLineOf(run).c_str(),
+                run.command.c_str());
     return write(run, options);
 }
 

@@ -24,6 +24,21 @@ std::string percent(double share) {
     return text(share > 0.0 && share < 1e-4 ? "%.1e%%" : "%.2f%%", 100.0 * share);
 }
 
+accuracy::ReferenceEffort effortOf(const AccuracyRun& run) {
+    accuracy::ReferenceEffort sum;
+    for (const AccuracyRow& row : run.rows) {
+        if (!row.measured) continue;
+        sum.rays += row.measured->reference.rays;
+        sum.raySeconds += row.measured->reference.raySeconds;
+        sum.treeSeconds += row.measured->reference.treeSeconds;
+    }
+    return sum;
+}
+
+double microsecondsARay(const accuracy::ReferenceEffort& effort) {
+    return 1e6 * effort.raySeconds / static_cast<double>(effort.rays);
+}
+
 bool beats(const AccuracyRow& a, const AccuracyRow& b) {
     const bool noWorse = errorOf(a) <= errorOf(b) && a.measured->medianMs <= b.measured->medianMs;
     const bool better = errorOf(a) < errorOf(b) || a.measured->medianMs < b.measured->medianMs;
@@ -103,6 +118,14 @@ json::object jsonOf(const AccuracyRow& row) {
 
 }  // namespace
 
+std::string referenceLineOf(const AccuracyRun& run) {
+    const accuracy::ReferenceEffort effort = effortOf(run);
+    if (effort.rays == 0) return {};
+    return "reference: " + text("%.1f", microsecondsARay(effort)) + " us of CPU time a ray (" +
+           std::to_string(effort.rays) + " rays), its tree of boxes " +
+           text("%.1f", 1e3 * effort.treeSeconds) + " ms\n";
+}
+
 double errorOf(const AccuracyRow& row) {
     return row.measured->all.rms;
 }
@@ -135,9 +158,17 @@ std::string tableOf(const AccuracyRun& run) {
 json::object jsonOf(const AccuracyRun& run) {
     json::array rows;
     for (const AccuracyRow& row : run.rows) rows.push_back(jsonOf(row));
-    return {{"command", run.command},           {"data", run.data},     {"cells", run.cells},
-            {"size", {run.size.x, run.size.y}}, {"frames", run.frames}, {"gl", run.gl},
-            {"rows", std::move(rows)}};
+    json::object all{{"command", run.command}, {"data", run.data},
+                     {"cells", run.cells},     {"size", {run.size.x, run.size.y}},
+                     {"frames", run.frames},   {"gl", run.gl},
+                     {"rows", std::move(rows)}};
+    const accuracy::ReferenceEffort effort = effortOf(run);
+    if (effort.rays > 0) {
+        all["reference"] = {{"rays", effort.rays},
+                            {"us_per_ray", microsecondsARay(effort)},
+                            {"tree_ms", 1e3 * effort.treeSeconds}};
+    }
+    return all;
 }
 
 }  // namespace volcast::commands

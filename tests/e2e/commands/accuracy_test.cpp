@@ -48,6 +48,13 @@ TEST(AccuracyCommand, MeasuresEveryModelWithAllThatServesIt) {
         }
         EXPECT_NE(run.out.find(textOf(row, "integrator")), std::string::npos);
     }
+    const json::value& reference = all.at("reference");
+    // One picture a model; each ray's neighbours are looked along, too.
+    EXPECT_GT(reference.at("rays").to_number<double>(),
+              48.0 * 40.0 * static_cast<double>(integrators.size()));
+    EXPECT_GT(reference.at("us_per_ray").to_number<double>(), 0.0);
+    EXPECT_GT(reference.at("tree_ms").to_number<double>(), 0.0);
+    EXPECT_NE(run.out.find("reference: "), std::string::npos);
     for (const scene::RayModelRow& model : scene::rayModels()) {
         EXPECT_EQ(integrators[std::string{model.name}].size(), model.integrators.size())
             << model.name;
