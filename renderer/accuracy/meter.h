@@ -66,6 +66,11 @@ private:
     };
     /// The reference at work, in the background.
     struct Search {
+        Search() = default;
+        Search(const Search&) = delete;
+        Search& operator=(const Search&) = delete;
+        Search(Search&&) = delete;
+        Search& operator=(Search&&) = delete;
         ~Search() { cancelled = true; }  // Then `answer` waits for its end.
         Question question;
         std::atomic<bool> cancelled{false};
