@@ -68,7 +68,8 @@ Result<plan::SceneEvidence> EvidenceKeeper::of(const scene::Scene& scene, scene:
         const scene::Layer& layer = scene.layers[i];
         if (!layer.visible || !plan::needsEvidence(layer, scene.accuracy)) continue;
         const auto found = known(scene, size, i);
-        Result<void> costs = found ? costs_.prepare(renderer_) : Result<void>{found.error()};
+        Result<void> costs =
+            found ? costs_.prepare(renderer_, layer.model) : Result<void>{found.error()};
         if (!costs) {
             if (costs.error().code == ErrorCode::kDeviceLost) return costs.error();
             continue;  // Such as voxels, which have no reference: drawn as well as can be.

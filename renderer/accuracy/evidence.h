@@ -11,7 +11,8 @@
 namespace volcast::accuracy {
 
 /// What the walk takes, by model and integrator, on this machine: a part for any picture and a part
-/// for each cell on each ray. Measured once, on pictures of two sizes, and kept in a file.
+/// for each cell on each ray. Measured once for each model, on pictures of two sizes, and kept in a
+/// file.
 class Costs {
 public:
     using Key = std::pair<scene::RayModel, scene::Integrator>;
@@ -20,18 +21,20 @@ public:
     Costs(std::string file, std::string machine)
         : file_{std::move(file)}, machine_{std::move(machine)} {}
 
-    /// Measures on a small mesh of its own, with `renderer`, what the file does not hold.
+    /// Measures on a small mesh of its own, with `renderer`, what the file does not hold of
+    /// `model`.
     ///
     /// Errors: as Meter::measure. A file that cannot be written is left.
-    Result<void> prepare(scene::Renderer& renderer);
-    /// Milliseconds of a picture; needs prepare().
+    Result<void> prepare(scene::Renderer& renderer, scene::RayModel model);
+    /// Milliseconds of a picture; needs prepare() of its model.
     [[nodiscard]] double predictMs(const Key& key, scene::PictureSize size,
                                    double cellsPerRay) const;
 
 private:
-    void load();
+    [[nodiscard]] bool know(scene::RayModel model) const;
+    void load();  ///< Keeps what is known.
     void save() const;
-    Result<void> measure(scene::Renderer& renderer);
+    Result<void> measure(scene::Renderer& renderer, scene::RayModel model);
 
     std::string file_, machine_;
     struct Cost {

@@ -35,6 +35,14 @@ struct Job {
     Candidate candidate = {};
     int frames = 0;            ///< Draws to time, after one that warms up; 0: errors alone.
     std::uint64_t pixels = 0;  ///< To compare, spread over the picture; 0: all.
+    bool countsSteps = false;  ///< In one more frame, which is not timed.
+    friend bool operator==(const Job&, const Job&) = default;
+};
+
+/// What the reference took: CPU time of all its threads, in double precision.
+struct ReferenceEffort {
+    std::uint64_t rays = 0;  ///< Of compared pixels, and beside them to find edges.
+    double raySeconds = 0.0, treeSeconds = 0.0;
 };
 
 /// What drawing a scene with one candidate is worth, and what it costs.
@@ -43,7 +51,10 @@ struct Measurement {
     Errors inner;  ///< Without pixels near a silhouette, where rounding may decide what is hit.
     double medianMs = 0.0, minMs = 0.0, maxMs = 0.0;  ///< Of one draw at full size.
     int frames = 0;
-    double cellsPerRay = 0.0;  ///< Mean over the compared pixels; how many cells a ray meets.
+    double cellsPerRay = 0.0;  ///< Mean over the compared pixels; what the reference's rays meet.
+    std::uint64_t walkSteps = 0;     ///< Of all rays of one picture; see mesh::WalkState::steps().
+    std::uint64_t cellsDrawn = 0;    ///< In one picture, by the projection.
+    ReferenceEffort reference = {};  ///< Zeros where its picture, or its tree, was known before.
     plan::Evaluator evaluator = plan::Evaluator::kMeshWalk;  ///< What drew the layer.
     std::string integrator;                                  ///< As in plans.
 };

@@ -47,7 +47,8 @@ WalkTraits traitsOf(const DrawInputs& inputs) {
             .clipPlanes = inputs.clipPlanes,
             .convex = inputs.mesh->convex,
             .clipsAtStart = inputs.planeDepth <= 0.0,
-            .earlyStop = inputs.plan->has(plan::kEarlyStop)};
+            .earlyStop = inputs.plan->has(plan::kEarlyStop),
+            .countsSteps = inputs.countsSteps};
 }
 
 /// A piece's front values are the back values of the piece before.
@@ -69,13 +70,16 @@ std::size_t pausedRayBytes(const gpu::Program& program) {
     return static_cast<std::size_t>(std::max(stride, 16));
 }
 
-void drawPicture(const DrawInputs& inputs, const gpu::Program& program, const WalkCache& cache) {
+void drawPicture(const DrawInputs& inputs, const gpu::Program& program, WalkCache& cache,
+                 bool counts) {
+    if (counts) cache.clearCounts();
     const bool opaque = scene::row(inputs.layer->model).opaque;
     inputs.target->begin(opaque ? gpu::PassState{.depth = gpu::DepthTest::kNearest}
                                 : gpu::PassState{.blend = gpu::Blend::kOver});
     program.use();
     cache.bind(inputs);
     inputs.device->draw(gpu::Primitive::kTriangles, 3);
+    if (inputs.countsSteps) cache.addSteps();
 }
 
 /// Draws the rays that one draw could not finish, until none is left.
@@ -89,8 +93,7 @@ Result<void> drawLongRays(const DrawInputs& inputs, WalkCache& cache) {
         return done;
     }
     for (int draw = 0; draw < kMaxDraws; ++draw) {
-        cache.clearCounts();
-        drawPicture(inputs, **program, cache);
+        drawPicture(inputs, **program, cache, true);
         glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
         const std::uint32_t unfinished = cache.unfinishedRays();
         if (auto done = inputs.device->check("mesh walk"); !done) return done;
@@ -150,8 +153,8 @@ Result<void> drawWalk(const DrawInputs& inputs, WalkState& state) {
     const auto program = inputs.programs->ray(walkRecipe(traits, inputs.constants));
     if (!program) return program.error();
     if (auto done = cache.prepare(inputs); !done) return done;
-    if (mayBeLong) cache.clearCounts();
-    drawPicture(inputs, **program, cache);
+    cache.clearSteps();
+    drawPicture(inputs, **program, cache, mayBeLong || inputs.countsSteps);
     if (mayBeLong && cache.unfinishedRays() > 0) return drawLongRays(inputs, cache);
     return {};
 }

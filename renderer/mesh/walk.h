@@ -66,6 +66,11 @@ public:
     WalkState(WalkState&&) = delete;
     WalkState& operator=(WalkState&&) = delete;
 
+    /// What all rays of the last picture took, where DrawInputs::countsSteps; else 0. A step
+    /// crosses a cell or takes one more part of a piece that is split; on meshes that are not
+    /// convex, the search for entries counts too. Rays too long for one draw begin anew.
+    [[nodiscard]] virtual std::uint64_t steps() const = 0;
+
 protected:
     WalkState() = default;
 };
@@ -94,6 +99,7 @@ struct DrawInputs {
     std::vector<shading::Constant> constants;
     int clipPlanes = 0;                     ///< In the layer block.
     std::span<const float> levels = {};     ///< Of an isosurface, ascending, as `field` is scaled.
+    bool countsSteps = false;               ///< The walk's, by another program.
     const gpu::Buffer* psiTable = nullptr;  ///< Where the integrator reads it, else null.
     /// Rays: colour 0, 32F, premultiplied, blended "over" (PassState{.blend = Blend::kOver}).
     /// Opaque models: colour 0 as before (opaque: alpha 1), colour 1 R32F the distance along the
@@ -127,9 +133,9 @@ struct WalkTraits {
     bool convex = true;         ///< A line enters the mesh once at most.
     bool clipsAtStart = false;  ///< Rays may start within the mesh.
     bool earlyStop = true;
-    bool counts = false;   ///< Rays may need more steps than one draw has.
-    bool resumes = false;  ///< They go on where the last draw ended.
-    bool countsSteps = false;
+    bool counts = false;       ///< Rays may need more steps than one draw has.
+    bool resumes = false;      ///< They go on where the last draw ended.
+    bool countsSteps = false;  ///< For WalkState::steps().
 };
 
 /// The program of drawWalk(). `constants`: as in DrawInputs.

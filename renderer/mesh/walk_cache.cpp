@@ -13,7 +13,7 @@ namespace volcast::mesh {
 
 namespace {
 
-constexpr std::size_t kCounts = 3;  // In shaders/mesh/counts.glsl.
+constexpr std::size_t kCounts = 4;  // In shaders/mesh/counts.glsl.
 constexpr std::size_t kNodeBytes = sizeof(glm::ivec4);
 constexpr std::size_t kFirstNodes = std::size_t{1} << 16;
 constexpr const char* kBoundaryVertex = "mesh/boundary.vert.glsl";
@@ -141,8 +141,8 @@ std::uint32_t WalkCache::unfinishedRays() const {
     return readCount(1);
 }
 
-std::uint32_t WalkCache::steps() const {
-    return readCount(2);
+void WalkCache::addSteps() {
+    steps_ += readCount(2) + (std::uint64_t{readCount(3)} << 32);
 }
 
 Result<void> WalkCache::bindPausedRays(gpu::Device& device, std::size_t bytesARay) {

@@ -26,8 +26,10 @@ public:
     /// Rays that the last pass could not finish. Waits for the GPU.
     [[nodiscard]] std::uint32_t unfinishedRays() const;
 
-    /// Steps of all rays of the last pass that counted them, modulo 2^32. Waits for the GPU.
-    [[nodiscard]] std::uint32_t steps() const;
+    /// Begins and goes on to add up what draws count. addSteps() waits for the GPU.
+    void clearSteps() noexcept { steps_ = 0; }
+    void addSteps();
+    [[nodiscard]] std::uint64_t steps() const override { return steps_; }
 
     /// Zeroed memory for paused rays of `bytesARay` each, one a pixel, bound to its place.
     ///
@@ -44,6 +46,7 @@ private:
     [[nodiscard]] std::uint32_t readCount(std::size_t index) const;
 
     CameraVertices camera_;
+    std::uint64_t steps_ = 0;
     std::uint64_t entriesOf_ = 0;  ///< The version of `camera_` whose entries these are.
     gpu::Buffer nodes_, counts_, paused_;
     gpu::Texture2D heads_;

@@ -125,6 +125,7 @@ bool Evaluator::apart(const Sight& a, const Sight& b) const {
 }
 
 Sight Evaluator::look(const glm::dvec2& place, bool colours, Scratch& scratch) const {
+    ++scratch.rays;
     Sight sight;
     const Ray ray = lens_.through(place);
     Span span = keptBy(clipPlanes_, ray);

@@ -17,6 +17,7 @@ struct Scratch {
     std::vector<Part> parts;
     std::vector<double> bends;
     std::vector<std::pair<FaceName, std::size_t>> faces;
+    std::uint64_t rays = 0;  ///< That were looked along.
 };
 
 /// What one ray of a scene sees.

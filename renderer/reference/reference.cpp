@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <ctime>
 #include <numbers>
 #include <string>
 #include <thread>
@@ -16,13 +17,26 @@ constexpr std::array kCorners{glm::ivec2{-1, -1}, glm::ivec2{1, -1}, glm::ivec2{
                               glm::ivec2{1, 1}};
 constexpr std::size_t kBatch = 16;  // Rays a thread takes at a time.
 
+/// What all threads did.
+struct Effort {
+    std::atomic<std::uint64_t> rays{0};
+    std::atomic<std::uint64_t> cpuNs{0};
+};
+
+std::uint64_t threadCpuNs() {
+    timespec now{};
+    ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return static_cast<std::uint64_t>(now.tv_sec) * 1'000'000'000U +
+           static_cast<std::uint64_t>(now.tv_nsec);
+}
+
 /// Calls `work(i, scratch)` for i below `count` on `threads` threads; false if it was cancelled.
 template <class Work>
-bool forAll(std::size_t count, int threads, const std::atomic<bool>* cancelled, const Work& work) {
+bool forAll(std::size_t count, int threads, const std::atomic<bool>* cancelled, Effort& effort,
+            const Work& work) {
     std::atomic<std::size_t> next{0};
     std::atomic<bool> stopped{false};
-    const auto run = [&] {
-        Scratch scratch;
+    const auto takeAll = [&](Scratch& scratch) {
         for (;;) {
             const std::size_t first = next.fetch_add(kBatch);
             if (first >= count) return;
@@ -34,6 +48,13 @@ bool forAll(std::size_t count, int threads, const std::atomic<bool>* cancelled, 
                 work(i, scratch);
             }
         }
+    };
+    const auto run = [&] {
+        Scratch scratch;
+        const std::uint64_t start = threadCpuNs();
+        takeAll(scratch);
+        effort.cpuNs += threadCpuNs() - start;
+        effort.rays += scratch.rays;
     };
     std::vector<std::thread> others;
     for (int i = 1; i < threads; ++i) others.emplace_back(run);
@@ -146,15 +167,19 @@ Result<Picture> draw(const scene::Scene& scene, const Casters& casters, scene::P
     const Evaluator evaluator{scene, *layers, size};
     std::vector<Sight> sights(places.size());
     std::vector<char> jumping(places.size(), 0);
-    const bool done = forAll(places.size(), threads, cancelled, [&](std::size_t i, Scratch& own) {
+    Effort effort;
+    const auto look = [&](std::size_t i, Scratch& own) {
         const glm::dvec2 centre = places.centre(i);
         sights[i] = evaluator.look(centre, wanted[i] != 0, own);
         if (wanted[i] == 0 || !evaluator.mayJump()) return;
         jumping[i] = jumps(evaluator, centre, sights[i], own) ? 1 : 0;
-    });
+    };
+    const bool done = forAll(places.size(), threads, cancelled, effort, look);
     if (!done) return fail(ErrorCode::kTimeout, "reference: cancelled before the picture was done");
 
     Picture picture{.size = size, .pixels = {}, .nearEdge = {}};
+    picture.rays = effort.rays;
+    picture.cpuSeconds = static_cast<double>(effort.cpuNs) * 1e-9;
     for (const glm::ivec2& pixel : pixels) {
         const std::size_t own = places.indexOf(pixel);
         const bool near = std::ranges::any_of(kCorners, [&](const glm::ivec2& corner) {

@@ -27,6 +27,8 @@ struct Picture {
     /// of the picture, so that an evaluator which rounds may be on the other side of it.
     std::vector<char> nearEdge;
     std::uint64_t piecesVisited = 0;  ///< Cells met by the requested rays, over all layers.
+    std::uint64_t rays = 0;           ///< Also those beside the requested ones that find edges.
+    double cpuSeconds = 0.0;          ///< What all rays took, on all threads together.
 };
 
 class Caster;

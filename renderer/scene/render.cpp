@@ -58,11 +58,17 @@ struct Frame {
     Picture* picture = nullptr;
     DepthRange depths;
     std::uint64_t cameraVersion = 0;
+    bool countsSteps = false;
 };
 
 bool isProjected(const LayerDraw& draw) {
     return draw.plan->evaluator == plan::Evaluator::kMeshProjection ||
            draw.plan->evaluator == plan::Evaluator::kMeshProjectionFaces;
+}
+
+/// The cells that are drawn of a layer's mesh.
+const data::Mesh& meshOf(const LayerDraw& draw) {
+    return draw.part->mesh(std::get<data::Mesh>(draw.dataset->data()));
 }
 
 /// The orders of layers that need one, as last drawn.
@@ -73,6 +79,22 @@ std::vector<LayerOrder> ordersOf(const Frame& frame) {
         if (report.cells > 0) orders.push_back({.layer = draw.layer->id, .report = report});
     }
     return orders;
+}
+
+std::vector<LayerSteps> stepsOf(const Frame& frame) {
+    std::vector<LayerSteps> steps;
+    for (const LayerDraw& draw : frame.draws) {
+        const bool cells = draw.part != nullptr && draw.part->gpu != nullptr &&
+                           draw.plan->evaluator != plan::Evaluator::kMeshRaster;
+        if (!cells) continue;
+        LayerSteps& one = steps.emplace_back(LayerSteps{.layer = draw.layer->id});
+        if (isProjected(draw)) {
+            one.cellsDrawn = meshOf(draw).cells.size();
+        } else {
+            one.walkSteps = draw.state->walk->steps();
+        }
+    }
+    return steps;
 }
 
 /// How cells were put in order becomes a part of why they were.
@@ -186,6 +208,7 @@ Result<FrameInfo> DeviceRenderer::render(std::uint64_t view, const Scene& scene,
     frame.scene = &scene;
     frame.size = size;
     frame.plan = &info.plan;
+    frame.countsSteps = target.countsSteps;
     ++frame_;
     for (std::size_t i = 0; i < scene.layers.size(); ++i) {
         const Layer& layer = scene.layers[i];
@@ -211,6 +234,7 @@ Result<FrameInfo> DeviceRenderer::render(std::uint64_t view, const Scene& scene,
     info.readbackMs = *readMs;
     info.drawn = work != Work::kNothing;
     info.orders = ordersOf(frame);
+    if (frame.countsSteps) info.steps = stepsOf(frame);
     for (const LayerOrder& order : info.orders) tellOrder(order, info.plan);
     if (info.drawn) ++counters_.framesDrawn;
     info.work = counters_ - before;
@@ -219,7 +243,8 @@ Result<FrameInfo> DeviceRenderer::render(std::uint64_t view, const Scene& scene,
 
 Work DeviceRenderer::workFor(const Frame& frame) const {
     const View& view = *frame.view;
-    if (view.stale || view.picture == nullptr || view.picture->size != frame.size) {
+    if (frame.countsSteps || view.stale || view.picture == nullptr ||
+        view.picture->size != frame.size) {
         return Work::kAll;
     }
     for (const auto& [id, generation] : frame.generations) {
@@ -399,7 +424,7 @@ Result<void> DeviceRenderer::drawLayer(const Frame& frame, const LayerDraw& draw
     const mesh::DrawInputs inputs{
         .device = &device_,
         .programs = &programs_,
-        .mesh = &draw.part->mesh(std::get<data::Mesh>(draw.dataset->data())),
+        .mesh = &meshOf(draw),
         .meshGpu = draw.part->gpu.get(),
         .field = draw.field,
         .density = draw.density,
@@ -412,6 +437,7 @@ Result<void> DeviceRenderer::drawLayer(const Frame& frame, const LayerDraw& draw
         .constants = draw.constants,
         .clipPlanes = static_cast<int>(frame.scene->clipPlanes.size()),
         .levels = draw.levels,
+        .countsSteps = frame.countsSteps,
         .psiTable = draw.plan->method == Integrator::kPsiTable ? &psiTable_ : nullptr,
         .target = isOpaque(draw) ? &frame.picture->opaquePass : &frame.picture->transparentPass};
     if (draw.plan->evaluator == plan::Evaluator::kMeshRaster) return mesh::drawSurface(inputs);

@@ -33,10 +33,18 @@ struct LayerOrder {
     mesh::OrderReport report;
 };
 
+/// What drawing a layer of a mesh took, in units of its evaluator.
+struct LayerSteps {
+    std::string layer;
+    std::uint64_t walkSteps = 0;   ///< Of all rays; see mesh::WalkState::steps().
+    std::uint64_t cellsDrawn = 0;  ///< By the projection.
+};
+
 /// What one call of render() made and took.
 struct FrameInfo {
     plan::FramePlan plan;
     std::vector<LayerOrder> orders;  ///< Of the layers whose cells must come front to back.
+    std::vector<LayerSteps> steps;   ///< Where FrameTarget::countsSteps.
     double uploadMs = 0.0;
     double drawMs = 0.0;  ///< Until the GPU was done.
     double readbackMs = 0.0;
@@ -44,11 +52,13 @@ struct FrameInfo {
     Counters work;       ///< Of this call alone.
 };
 
-/// Where pixels go; rows from the top. Either may be empty.
+/// What is wanted of a frame, and where pixels go; rows from the top. Either may be empty.
 struct FrameTarget {
-    std::span<std::byte> rgba8;  ///< 4 bytes a pixel: sRGB-encoded, composited over the background,
-                                 ///< straight alpha.
-    std::span<float> rgba32f;    ///< 4 floats a pixel: linear, premultiplied, without background.
+    /// 4 bytes a pixel: sRGB-encoded, composited over the background, straight alpha.
+    std::span<std::byte> rgba8 = {};
+    /// 4 floats a pixel: linear, premultiplied, without background.
+    std::span<float> rgba32f = {};
+    bool countsSteps = false;  ///< Draws anew, slower, and tells what every layer took.
 };
 
 /// Draws scenes of several views on one device; all calls on the device's thread.

@@ -98,6 +98,10 @@ Result<void> Loop::handle(const wire::ToWorker& message, const Descriptors& desc
         }
         case wire::ToWorker::kWarmUp: return warmUp(message.warm_up().step());
         case wire::ToWorker::kMeasure: return measure(message.measure());
+        case wire::ToWorker::kStopMeasuring: {
+            meter_.stop();
+            return {};
+        }
         case wire::ToWorker::BODY_NOT_SET: break;
     }
     return fail(ErrorCode::kInvalidArgument, "the server sent a message of an unknown kind");
@@ -192,7 +196,8 @@ Result<void> Loop::render(const wire::Render& request, const Descriptors& descri
 
 Result<void> Loop::measure(const wire::Measure& request) {
     const auto job = jobFrom(request);
-    const auto measured = job ? meter_.measure(*job) : Result<accuracy::Measurement>{job.error()};
+    const auto measured =
+        job ? meter_.advance(*job) : Result<std::optional<accuracy::Measurement>>{job.error()};
     if (Result<void> alive = checkDevice(); !alive) return alive;
     if (!measured) {
         wire::Failed failed;
@@ -200,8 +205,12 @@ Result<void> Loop::measure(const wire::Measure& request) {
         return refuse(measured.error(), std::move(failed));
     }
     wire::FromWorker answer;
-    *answer.mutable_measured() = toMessage(*measured);
-    answer.mutable_measured()->set_request(request.request());
+    if (*measured) {
+        *answer.mutable_measured() = toMessage(**measured);
+        answer.mutable_measured()->set_request(request.request());
+    } else {
+        answer.mutable_measuring()->set_request(request.request());
+    }
     return reply(answer);
 }
 

@@ -38,6 +38,7 @@ internal::v1::Measure toMessage(const accuracy::Job& job) {
     message.set_evaluator(toMessage(job.candidate.evaluator));
     message.set_frames(static_cast<std::uint32_t>(job.frames));
     message.set_pixels(job.pixels);
+    message.set_counts_steps(job.countsSteps);
     return message;
 }
 
@@ -50,6 +51,11 @@ internal::v1::Measured toMessage(const accuracy::Measurement& measurement) {
     message.set_max_ms(measurement.maxMs);
     message.set_frames(static_cast<std::uint32_t>(measurement.frames));
     message.set_cells_per_ray(measurement.cellsPerRay);
+    message.set_walk_steps(measurement.walkSteps);
+    message.set_cells_drawn(measurement.cellsDrawn);
+    message.set_reference_rays(measurement.reference.rays);
+    message.set_reference_ray_seconds(measurement.reference.raySeconds);
+    message.set_reference_tree_seconds(measurement.reference.treeSeconds);
     message.set_evaluator(name(measurement.evaluator));
     message.set_integrator(measurement.integrator);
     return message;
@@ -69,6 +75,7 @@ Result<accuracy::Job> jobFrom(const internal::v1::Measure& message) {
     job.candidate = {.layer = message.layer(), .integrator = *integrator, .evaluator = *evaluator};
     job.frames = static_cast<int>(message.frames());
     job.pixels = message.pixels();
+    job.countsSteps = message.counts_steps();
     return job;
 }
 
@@ -80,6 +87,11 @@ accuracy::Measurement measurementFrom(const internal::v1::Measured& message) {
             .maxMs = message.max_ms(),
             .frames = static_cast<int>(message.frames()),
             .cellsPerRay = message.cells_per_ray(),
+            .walkSteps = message.walk_steps(),
+            .cellsDrawn = message.cells_drawn(),
+            .reference = {.rays = message.reference_rays(),
+                          .raySeconds = message.reference_ray_seconds(),
+                          .treeSeconds = message.reference_tree_seconds()},
             .evaluator = evaluatorNamed(message.evaluator()),
             .integrator = message.integrator()};
 }

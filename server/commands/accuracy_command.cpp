@@ -124,7 +124,8 @@ Result<void> measure(OfflineRenderer& renderer, std::vector<Planned>& rows,
                                           .size = {options.scene.size[0], options.scene.size[1]},
                                           .candidate = planned.candidate,
                                           .frames = options.frames,
-                                          .pixels = options.sample});
+                                          .pixels = options.sample,
+                                          .countsSteps = true});
         if (measured) {
             planned.row.measured = *std::move(measured);
         } else if (measured.error().code == ErrorCode::kDeviceLost) {
@@ -184,9 +185,10 @@ Result<void> measureAll(const AccuracyOptions& options) {
                     .rows = {}};
     for (Planned& planned : *rows) run.rows.push_back(std::move(planned.row));
     markFronts(run.rows);
-    std::printf("%s: %llu cells, %d x %d pixels, %d frames each, %s\n%s\n%s\n", run.data.c_str(),
+    std::printf("%s: %llu cells, %d x %d pixels, %d frames each, %s\n%s%s\n%s\n", run.data.c_str(),
                 static_cast<unsigned long long>(run.cells), run.size.x, run.size.y, run.frames,
-                run.gl.c_str(), tableOf(run).c_str(), run.command.c_str());
+                run.gl.c_str(), tableOf(run).c_str(), referenceLineOf(run).c_str(),
+                run.command.c_str());
     return write(run, options);
 }
 
@@ -206,7 +208,11 @@ void addAccuracyCommand(CLI::App& app, int& exitCode) {
         "accuracy", "Measures what each ray model, integrator and evaluator is worth, and costs");
     command->footer(
         "Errors are in linear light against a reference in double precision; a * marks what no\n"
-        "other row of its model beats in error (rms) and time.\n"
+        "other row of its model beats in error (rms) and time. Cells per ray are those that the\n"
+        "reference's rays meet; steps per ray are what the walk's shader took (a cell crossed, "
+        "one\n"
+        "more part of a split piece, the search for entries where a mesh is not convex); cells\n"
+        "drawn are the projection's.\n"
         "Exit code: 0 done, 1 failed, 2 wrong options.");
     addOptions(*command, *options);
     command->callback([options, &exitCode] { exitCode = run(*options); });

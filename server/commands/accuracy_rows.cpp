@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdio>
 
 #include "renderer/worker/frame_message.h"
@@ -25,13 +24,28 @@ std::string percent(double share) {
     return text(share > 0.0 && share < 1e-4 ? "%.1e%%" : "%.2f%%", 100.0 * share);
 }
 
+accuracy::ReferenceEffort effortOf(const AccuracyRun& run) {
+    accuracy::ReferenceEffort sum;
+    for (const AccuracyRow& row : run.rows) {
+        if (!row.measured) continue;
+        sum.rays += row.measured->reference.rays;
+        sum.raySeconds += row.measured->reference.raySeconds;
+        sum.treeSeconds += row.measured->reference.treeSeconds;
+    }
+    return sum;
+}
+
+double microsecondsARay(const accuracy::ReferenceEffort& effort) {
+    return 1e6 * effort.raySeconds / static_cast<double>(effort.rays);
+}
+
 bool beats(const AccuracyRow& a, const AccuracyRow& b) {
     const bool noWorse = errorOf(a) <= errorOf(b) && a.measured->medianMs <= b.measured->medianMs;
     const bool better = errorOf(a) < errorOf(b) || a.measured->medianMs < b.measured->medianMs;
     return noWorse && better;
 }
 
-Cells cellsOf(const AccuracyRow& row) {
+Cells cellsOf(const AccuracyRow& row, const AccuracyRun& run) {
     Cells cells{row.onFront ? "*" : "", row.model, row.integrator, row.evaluator};
     if (!row.measured) return cells;
     const accuracy::Measurement& m = *row.measured;
@@ -43,6 +57,10 @@ Cells cellsOf(const AccuracyRow& row) {
     cells.push_back(percent(m.inner.share255));
     for (const double ms : {m.medianMs, m.minMs, m.maxMs}) cells.push_back(text("%.2f", ms));
     cells.push_back(text("%.1f", m.cellsPerRay));
+    const double pixels = static_cast<double>(run.size.x) * run.size.y;
+    cells.push_back(m.walkSteps == 0 ? ""
+                                     : text("%.1f", static_cast<double>(m.walkSteps) / pixels));
+    cells.push_back(m.cellsDrawn == 0 ? "" : std::to_string(m.cellsDrawn));
     return cells;
 }
 
@@ -75,7 +93,7 @@ json::object jsonOf(const accuracy::Errors& errors) {
             {"share_over_1_65535", errors.share65535}};
 }
 
-json::object jsonOf(const AccuracyRow& row, const AccuracyRun& run) {
+json::object jsonOf(const AccuracyRow& row) {
     json::object object{{"model", row.model},
                         {"layer", row.layer},
                         {"integrator", row.integrator},
@@ -92,12 +110,21 @@ json::object jsonOf(const AccuracyRow& row, const AccuracyRun& run) {
     object["min_ms"] = m.minMs;
     object["max_ms"] = m.maxMs;
     object["cells_per_ray"] = m.cellsPerRay;
-    object["cells_visited"] = std::round(m.cellsPerRay * run.size.x * run.size.y);
+    if (m.walkSteps != 0) object["walk_steps"] = m.walkSteps;
+    if (m.cellsDrawn != 0) object["cells_drawn"] = m.cellsDrawn;
     object["on_front"] = row.onFront;
     return object;
 }
 
 }  // namespace
+
+std::string referenceLineOf(const AccuracyRun& run) {
+    const accuracy::ReferenceEffort effort = effortOf(run);
+    if (effort.rays == 0) return {};
+    return "reference: " + text("%.1f", microsecondsARay(effort)) + " us of CPU time a ray (" +
+           std::to_string(effort.rays) + " rays), its tree of boxes " +
+           text("%.1f", 1e3 * effort.treeSeconds) + " ms\n";
+}
 
 double errorOf(const AccuracyRow& row) {
     return row.measured->all.rms;
@@ -116,10 +143,10 @@ void markFronts(std::vector<AccuracyRow>& rows) {
 std::string tableOf(const AccuracyRun& run) {
     std::vector<Cells> table{
         {"", "", "", "", "all", "pixels", "", "", "without", "silhouettes", "", "ms", "", "",
-         "cells"},
+         "cells", "steps", "cells"},
         {"", "model", "integrator", "evaluator", "max", "rms", ">1/255", ">1/65535", "max", "rms",
-         ">1/255", "median", "min", "max", "per ray"}};
-    for (const AccuracyRow& row : run.rows) table.push_back(cellsOf(row));
+         ">1/255", "median", "min", "max", "per ray", "per ray", "drawn"}};
+    for (const AccuracyRow& row : run.rows) table.push_back(cellsOf(row, run));
     std::string out = align(table, 4);
     for (const AccuracyRow& row : run.rows) {
         if (row.measured) continue;
@@ -130,10 +157,18 @@ std::string tableOf(const AccuracyRun& run) {
 
 json::object jsonOf(const AccuracyRun& run) {
     json::array rows;
-    for (const AccuracyRow& row : run.rows) rows.push_back(jsonOf(row, run));
-    return {{"command", run.command},           {"data", run.data},     {"cells", run.cells},
-            {"size", {run.size.x, run.size.y}}, {"frames", run.frames}, {"gl", run.gl},
-            {"rows", std::move(rows)}};
+    for (const AccuracyRow& row : run.rows) rows.push_back(jsonOf(row));
+    json::object all{{"command", run.command}, {"data", run.data},
+                     {"cells", run.cells},     {"size", {run.size.x, run.size.y}},
+                     {"frames", run.frames},   {"gl", run.gl},
+                     {"rows", std::move(rows)}};
+    const accuracy::ReferenceEffort effort = effortOf(run);
+    if (effort.rays > 0) {
+        all["reference"] = {{"rays", effort.rays},
+                            {"us_per_ray", microsecondsARay(effort)},
+                            {"tree_ms", 1e3 * effort.treeSeconds}};
+    }
+    return all;
 }
 
 }  // namespace volcast::commands

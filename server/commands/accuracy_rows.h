@@ -29,6 +29,9 @@ struct AccuracyRun {
     std::vector<AccuracyRow> rows;
 };
 
+/// What the reference took for all rows; empty where there is none.
+std::string referenceLineOf(const AccuracyRun& run);
+
 /// The error that plots and fronts go by: RMS in linear light, silhouettes included.
 double errorOf(const AccuracyRow& row);
 

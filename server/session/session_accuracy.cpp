@@ -59,6 +59,7 @@ void Session::measureNext(View& view) {
 void Session::stopMeasuring(View& view, const std::string& why) {
     if (!view.accuracy.running()) return;
     view.accuracy.stop();
+    shared_.render.stopMeasuring(view.global);
     v1::ServerMessage message;
     *message.mutable_accuracy_report() = view.accuracy.report(view.number);
     message.mutable_accuracy_report()->set_stopped(why);

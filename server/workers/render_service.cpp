@@ -83,6 +83,15 @@ public:
         wake();
     }
 
+    void stopMeasuring(std::uint64_t view) override {
+        {
+            const std::scoped_lock lock{mutex_};
+            inbox_.measures.erase(view);
+            inbox_.stoppedMeasures.push_back(view);
+        }
+        wake();
+    }
+
     void dropView(std::uint64_t view) override {
         {
             const std::scoped_lock lock{mutex_};

@@ -61,7 +61,7 @@ struct RenderSettings {
     std::chrono::milliseconds frameDeadline{10'000};  ///< Upload, compile, link and draw together.
     std::chrono::milliseconds startDeadline{20'000};
     std::chrono::milliseconds datasetDeadline{120'000};  ///< To check and take over one dataset.
-    std::chrono::milliseconds measureDeadline{120'000};  ///< For the reference and all its frames.
+    std::chrono::milliseconds measureDeadline{120'000};  ///< For the reference and all frames.
     std::chrono::milliseconds heartbeatInterval{1'000};  ///< An idle worker is asked this often.
     std::chrono::milliseconds heartbeatDeadline{3'000};  ///< And has this long to answer.
     bool warmSpare = true;
@@ -83,7 +83,8 @@ struct RenderEvents {
     std::function<void(RenderedFrame)> rendered = {};
     /// The request was refused or failed; the view keeps its last good picture.
     std::function<void(std::uint64_t view, std::uint64_t tag, Error)> failed = {};
-    /// What was asked of measure(). kDeviceLost where the worker was lost meanwhile.
+    /// What was asked of measure(). kTimeout: it took longer than its deadline; kDeviceLost: two
+    /// workers were lost over it, or one by a part of it that missed the frame's deadline.
     std::function<void(std::uint64_t view, std::uint64_t tag, Result<accuracy::Measurement>)>
         measured = {};
     /// The worker of these views was lost; their last requests are drawn again by themselves.
@@ -115,9 +116,10 @@ public:
     virtual void addDataset(const std::string& id, base::FileDescriptor packed) = 0;
     virtual void removeDataset(const std::string& id) = 0;
     virtual void submit(RenderRequest request) = 0;
-    /// Measured when no view waits for a picture, one after the other; replaces the view's request
-    /// that has not begun. dropView() takes it back.
+    /// Measured when no view waits for a picture, in parts that take about as long as one; replaces
+    /// the view's request. dropView() takes it back, too.
     virtual void measure(MeasureRequest request) = 0;
+    virtual void stopMeasuring(std::uint64_t view) = 0;
     virtual void dropView(std::uint64_t view) = 0;
     [[nodiscard]] virtual RenderStatus status() const = 0;
 

@@ -117,13 +117,14 @@ void Supervisor::accept(Inbox& inbox) {
     for (const Inbox::DatasetChange& dataset : inbox.datasets) change(dataset);
     for (const std::uint64_t view : inbox.droppedViews) {
         views_.drop(view);
-        measures_.erase(view);
+        stopMeasure(view);
         if (main_) main_->dropView(view);
     }
     for (auto& [view, timed] : inbox.requests) {
         views_.submit(std::move(timed.request), timed.submitted);
     }
-    for (auto& [view, request] : inbox.measures) measures_[view] = std::move(request);
+    for (const std::uint64_t view : inbox.stoppedMeasures) stopMeasure(view);
+    for (auto& [view, request] : inbox.measures) measures_.submit(std::move(request));
 }
 
 void Supervisor::change(const Inbox::DatasetChange& change) {
@@ -172,6 +173,7 @@ void Supervisor::handle(Worker& worker, const WorkerProcess::Answer& answer) {
     }
     if (answer.has_failed()) return refuse(answer.failed());
     if (answer.has_rendered()) return finish(answer.rendered());
+    if (answer.has_measuring()) return continueMeasure(answer.measuring().request());
     if (answer.has_measured()) {
         return finishMeasure(answer.measured().request(),
                              worker::measurementFrom(answer.measured()));
@@ -234,7 +236,7 @@ void Supervisor::refuse(const internal::v1::Failed& failed) {
         spdlog::error("dataset {}: {}", failed.dataset(), error.message);
         return;
     }
-    if (measuring_) return finishMeasure(failed.request(), error);
+    if (measures_.inHand()) return finishMeasure(failed.request(), error);
     if (!inFlight_ || failed.request() != inFlight_->number) {
         return lose(main_, "refused a picture nobody asked for");
     }
@@ -244,7 +246,7 @@ void Supervisor::refuse(const internal::v1::Failed& failed) {
 }
 
 void Supervisor::dispatch() {
-    while (main_ && main_->ready() && !inFlight_ && !measuring_) {
+    while (main_ && main_->ready() && !inFlight_ && !measures_.inHand()) {
         auto next = views_.next();
         if (!next) return dispatchMeasure();
         const RenderRequest& request = next->request;
@@ -259,25 +261,6 @@ void Supervisor::dispatch() {
         ++nextNumber_;
         static_cast<void>(main_->flush());  // serve() notices a closed channel.
     }
-}
-
-void Supervisor::dispatchMeasure() {
-    if (measures_.empty()) return;
-    auto node = measures_.extract(measures_.begin());
-    MeasureRequest request = std::move(node.mapped());
-    auto asked = main_->measure(nextNumber_, request.job, settings_.measureDeadline);
-    measuring_ = {.request = std::move(request), .number = nextNumber_};
-    if (!asked) return finishMeasure(nextNumber_++, asked.error());
-    ++nextNumber_;
-    static_cast<void>(main_->flush());
-}
-
-void Supervisor::finishMeasure(std::uint64_t number, const Result<accuracy::Measurement>& result) {
-    if (!measuring_ || number != measuring_->number) {
-        return lose(main_, "measured what nobody asked for");
-    }
-    const Measuring done = *std::exchange(measuring_, std::nullopt);
-    if (events_.measured) events_.measured(done.request.view, done.request.tag, result);
 }
 
 void Supervisor::checkTimes() {
@@ -319,11 +302,12 @@ void Supervisor::startFailed(const Error& error) {
     spdlog::error("GL worker cannot be started: {}; next try in {} ms", error.message,
                   backOff_.delay().count());
     if (main_ || backOff_.failures() < kFailuresToGiveUp) return;
+    const Error lost =
+        fail(ErrorCode::kDeviceLost, "the lost GL worker cannot be replaced: " + error.message);
+    for (const MeasureRequest& request : measures_.takeAll()) tell(request, lost);
     for (const RenderRequest& request : views_.takeAll()) {
         if (!events_.failed) break;
-        events_.failed(request.view, request.tag,
-                       fail(ErrorCode::kDeviceLost,
-                            "the lost GL worker cannot be replaced: " + error.message));
+        events_.failed(request.view, request.tag, lost);
     }
 }
 
@@ -352,10 +336,7 @@ void Supervisor::lose(Worker& worker, const std::string& reason) {
 
 void Supervisor::loseMain() {
     ++generation_;
-    if (measuring_) {
-        finishMeasure(measuring_->number,
-                      fail(ErrorCode::kDeviceLost, "the GL worker was lost: " + lastLoss_));
-    }
+    const auto unmeasured = measures_.lost(Clock::now());
     auto inFlight = std::exchange(inFlight_, std::nullopt);
     std::optional<RenderRequest> request;
     if (inFlight) request = std::move(inFlight->request);
@@ -363,6 +344,9 @@ void Supervisor::loseMain() {
     startWorkers();
     dispatch();
     if (events_.recovering && !loss.views.empty()) events_.recovering(loss.views);
+    for (const MeasureRequest& givenUp : unmeasured) {
+        tell(givenUp, fail(ErrorCode::kDeviceLost, "the GL worker was lost: " + lastLoss_));
+    }
     for (const RenderRequest& givenUp : loss.givenUp) {
         if (!events_.failed) break;
         events_.failed(

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "server/workers/back_off.h"
+#include "server/workers/measure_queue.h"
 #include "server/workers/private_folder.h"
 #include "server/workers/view_queue.h"
 #include "server/workers/worker_process.h"
@@ -21,6 +22,7 @@ struct Inbox {
     };
     std::vector<DatasetChange> datasets;
     std::vector<std::uint64_t> droppedViews;
+    std::vector<std::uint64_t> stoppedMeasures;        ///< By view, before those below.
     std::map<std::uint64_t, TimedRequest> requests;    ///< Newest of each view.
     std::map<std::uint64_t, MeasureRequest> measures;  ///< Newest of each view.
     bool stop = false;
@@ -35,7 +37,8 @@ public:
         : settings_{std::move(settings)},
           events_{std::move(events)},
           cacheFolder_{std::move(cacheFolder)},
-          wakeFd_{wakeFd} {}
+          wakeFd_{wakeFd},
+          measures_{settings_.frameDeadline, settings_.measureDeadline} {}
 
     /// Starts the first worker and waits until it is ready or has failed.
     ///
@@ -56,11 +59,6 @@ private:
         double waitMs = 0.0;
     };
 
-    struct Measuring {
-        MeasureRequest request;
-        std::uint64_t number = 0;
-    };
-
     void wait();
     void accept(Inbox& inbox);  ///< Empties it.
     void change(const Inbox::DatasetChange& change);
@@ -70,7 +68,10 @@ private:
     void refuse(const internal::v1::Failed& failed);
     void dispatch();
     void dispatchMeasure();
+    void continueMeasure(std::uint64_t number);
     void finishMeasure(std::uint64_t number, const Result<accuracy::Measurement>& result);
+    void stopMeasure(std::uint64_t view);
+    void tell(const MeasureRequest& request, const Result<accuracy::Measurement>& result) const;
     void checkTimes();
     void startWorkers();
     void start(Worker& worker);
@@ -94,8 +95,8 @@ private:
     std::map<std::string, SharedDescriptor> datasets_;
     ViewQueue views_;
     std::optional<InFlight> inFlight_;
-    std::map<std::uint64_t, MeasureRequest> measures_;  ///< That wait, by view.
-    std::optional<Measuring> measuring_;                ///< Never beside inFlight_.
+    MeasureQueue measures_;            ///< Nothing is in hand beside inFlight_.
+    std::uint64_t measureNumber_ = 0;  ///< Of the part in hand.
     std::uint64_t nextNumber_ = 1;
 
     BackOff backOff_;

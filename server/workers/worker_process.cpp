@@ -149,6 +149,12 @@ Result<void> WorkerProcess::measure(std::uint64_t number, const accuracy::Job& j
     return {};
 }
 
+void WorkerProcess::stopMeasuring() {
+    Message message;
+    message.mutable_stop_measuring();
+    outbox_.push_back({.message = std::move(message), .descriptor = nullptr});
+}
+
 Result<void> WorkerProcess::flush() {
     while (!outbox_.empty()) {
         const Outgoing& next = outbox_.front();
@@ -171,7 +177,8 @@ Result<void> WorkerProcess::settle(const Answer& answer) {
         case Answer::kRendered: expected = owed == Owed::kFrame; break;
         case Answer::kPong: expected = owed == Owed::kPong; break;
         case Answer::kWarmedUp: expected = owed == Owed::kWarmUp; break;
-        case Answer::kMeasured: expected = owed == Owed::kMeasure; break;
+        case Answer::kMeasured:
+        case Answer::kMeasuring: expected = owed == Owed::kMeasure; break;
         case Answer::kFailed: expected = owed && owed != Owed::kPong; break;
         case Answer::BODY_NOT_SET: break;
     }

@@ -47,6 +47,7 @@ public:
     /// Errors: kLimitExceeded (the scene is too large for the channel).
     Result<void> measure(std::uint64_t number, const accuracy::Job& job,
                          std::chrono::milliseconds limit);
+    void stopMeasuring();
 
     /// Errors: the channel is closed or broken.
     Result<void> flush();

@@ -25,7 +25,8 @@ void countUnfinished() {
 }
 
 void countSteps(int steps) {
-    atomicAdd(stepCount, uint(steps));
+    uint before = atomicAdd(stepCount, uint(steps));
+    if (before + uint(steps) < before) atomicAdd(stepCarry, 1u);
 }
 
 int slotOf(ivec2 pixel) {

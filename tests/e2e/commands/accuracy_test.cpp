@@ -39,8 +39,22 @@ TEST(AccuracyCommand, MeasuresEveryModelWithAllThatServesIt) {
         EXPECT_EQ(row.at("error").as_object().at("pixels").to_number<int>(), 48 * 40);
         EXPECT_GT(row.at("median_ms").to_number<double>(), 0.0);
         EXPECT_GT(row.at("cells_per_ray").to_number<double>(), 0.0);
+        const std::string evaluator = textOf(row, "evaluator");
+        EXPECT_EQ(row.contains("walk_steps"), evaluator == "walk") << json::serialize(row);
+        const bool projected = evaluator.starts_with("projection");
+        ASSERT_EQ(row.contains("cells_drawn"), projected) << json::serialize(row);
+        if (projected) {
+            EXPECT_EQ(row.at("cells_drawn"), all.at("cells")) << json::serialize(row);
+        }
         EXPECT_NE(run.out.find(textOf(row, "integrator")), std::string::npos);
     }
+    const json::value& reference = all.at("reference");
+    // One picture a model; each ray's neighbours are looked along, too.
+    EXPECT_GT(reference.at("rays").to_number<double>(),
+              48.0 * 40.0 * static_cast<double>(integrators.size()));
+    EXPECT_GT(reference.at("us_per_ray").to_number<double>(), 0.0);
+    EXPECT_GT(reference.at("tree_ms").to_number<double>(), 0.0);
+    EXPECT_NE(run.out.find("reference: "), std::string::npos);
     for (const scene::RayModelRow& model : scene::rayModels()) {
         EXPECT_EQ(integrators[std::string{model.name}].size(), model.integrators.size())
             << model.name;

@@ -1,4 +1,6 @@
 // How a live view is drawn, why, and what accuracy costs there, over a real socket.
+#include <csignal>
+
 #include "tests/e2e/server/shared_server.h"
 
 namespace volcast::test {
@@ -95,6 +97,29 @@ TEST_F(LiveAccuracy, AChangeOfTheViewEndsTheMeasurement) {
     ASSERT_TRUE(report.has_value());
     EXPECT_EQ(report->stopped(), "the view changed");
     EXPECT_LT(report->rows_size(), 12);
+    EXPECT_TRUE(client->waitForFrame(1, 3).has_value());
+}
+
+TEST_F(LiveAccuracy, ALostWorkersMeasurementIsDoneAgainAndTheViewLivesOn) {
+    const auto client = clientWithView();
+    ASSERT_TRUE(client);
+    client->look(1, 2, 0.5);
+    ASSERT_TRUE(client->waitForLossless(1, 2).has_value());
+    client->send(measure(1, 60'000));
+    ASSERT_TRUE(waitForReport(*client, false).has_value());
+    // The server has asked for the next way to draw by now.
+    const auto pid = static_cast<pid_t>(readiness().at("worker_pid").to_number<double>());
+    ASSERT_EQ(::kill(pid, SIGKILL), 0);
+    ASSERT_TRUE(client->waitForState(1, v1::VIEW_STATE_RECOVERING).has_value()) << server().log();
+    const auto report = waitForReport(*client, true);
+    ASSERT_TRUE(report.has_value()) << server().log();
+    EXPECT_EQ(report->stopped(), "");
+    ASSERT_EQ(report->rows_size(), 12);
+    for (const v1::AccuracyRow& row : report->rows()) {
+        EXPECT_EQ(row.refusal(), "");
+        EXPECT_GT(row.median_ms(), 0.0);
+    }
+    client->look(1, 3, 0.7);
     EXPECT_TRUE(client->waitForFrame(1, 3).has_value());
 }
 

@@ -36,6 +36,12 @@ workers::RenderEvents Events::callbacks() {
                     failures_.push_back({.view = view, .tag = tag, .error = std::move(error)});
                     changed_.notify_all();
                 },
+            .measured =
+                [this](std::uint64_t view, std::uint64_t, Result<accuracy::Measurement> result) {
+                    const std::scoped_lock lock{mutex_};
+                    measurements_.emplace_back(view, std::move(result));
+                    changed_.notify_all();
+                },
             .recovering =
                 [this](const std::vector<std::uint64_t>& views) {
                     const std::scoped_lock lock{mutex_};
@@ -88,6 +94,22 @@ bool Events::waitForRecovering(std::uint64_t view, std::size_t times) {
         return static_cast<std::size_t>(std::count(recovering_.begin(), recovering_.end(), view)) >=
                times;
     });
+}
+
+std::optional<Result<accuracy::Measurement>> Events::waitForMeasurement(std::uint64_t view) {
+    std::optional<Result<accuracy::Measurement>> found;
+    waitUntil([&] {
+        for (const auto& [of, result] : measurements_) {
+            if (of == view) found = result;
+        }
+        return found.has_value();
+    });
+    return found;
+}
+
+bool Events::hasMeasurement() const {
+    const std::scoped_lock lock{mutex_};
+    return !measurements_.empty();
 }
 
 std::size_t Events::framesOf(std::uint64_t view) const {

@@ -7,6 +7,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -30,8 +31,10 @@ public:
     std::optional<workers::RenderedFrame> waitForTag(std::uint64_t view, std::uint64_t tag);
     std::optional<Error> waitForFailure(std::uint64_t view, std::uint64_t tag);
     bool waitForRecovering(std::uint64_t view, std::size_t times = 1);
+    std::optional<Result<accuracy::Measurement>> waitForMeasurement(std::uint64_t view);
 
     [[nodiscard]] std::size_t framesOf(std::uint64_t view) const;
+    [[nodiscard]] bool hasMeasurement() const;
     [[nodiscard]] std::vector<std::uint64_t> viewsInOrder() const;
 
 private:
@@ -46,6 +49,7 @@ private:
     std::condition_variable changed_;
     std::vector<workers::RenderedFrame> frames_;
     std::vector<Failure> failures_;
+    std::vector<std::pair<std::uint64_t, Result<accuracy::Measurement>>> measurements_;
     std::vector<std::uint64_t> recovering_;
 };
 

@@ -145,6 +145,8 @@ TEST(Properties, PixelsAndThreadsChangeNothing) {
     EXPECT_EQ(whole.pixels, threaded->pixels);
     EXPECT_EQ(whole.nearEdge, threaded->nearEdge);
     EXPECT_EQ(whole.piecesVisited, threaded->piecesVisited);
+    EXPECT_EQ(whole.rays, threaded->rays);
+    EXPECT_GT(threaded->cpuSeconds, 0.0);
     const Picture some = drawn(scene, mesh, kSize, {{23, 0}, {12, 11}, {12, 11}, {0, 23}});
     ASSERT_EQ(some.pixels.size(), 4U);
     const std::size_t indices[] = {23, 11 * 24 + 12, 11 * 24 + 12, 23 * 24};

@@ -21,11 +21,12 @@ public:
     void measure(workers::MeasureRequest request) override {
         measures.push_back(std::move(request));
     }
+    void stopMeasuring(std::uint64_t view) override { stopped.push_back(view); }
     void dropView(std::uint64_t view) override { dropped.push_back(view); }
     [[nodiscard]] workers::RenderStatus status() const override { return {}; }
     std::vector<workers::RenderRequest> requests;
     std::vector<workers::MeasureRequest> measures;
-    std::vector<std::uint64_t> dropped;
+    std::vector<std::uint64_t> stopped, dropped;
 };
 
 /// A cube of voxels with one channel, without its bytes.
@@ -169,6 +170,34 @@ TEST_F(SessionTest, ANewViewOfAnOldNumberHearsNothingOfTheOldOne) {
     drawLast();
     const std::string said = waitFor("CODEC_JPEG");
     EXPECT_NE(said.find(R"("width":5)"), std::string::npos) << said;
+}
+
+TEST_F(SessionTest, AChangeOfTheViewStopsItsMeasurement) {
+    openView();
+    drawLast();
+    ASSERT_NE(waitFor("CODEC_JPEG"), "");
+    say(R"({"measureAccuracy":{"view":4}})");
+    ASSERT_EQ(render.measures.size(), 1U);
+    EXPECT_TRUE(render.stopped.empty());
+    say(R"({"update":{"view":4,"inputSeq":"2","viewport":{"width":9,"height":9}}})");
+    EXPECT_NE(waitFor("the view changed"), "");
+    EXPECT_EQ(render.stopped, std::vector<std::uint64_t>{render.measures[0].view});
+}
+
+TEST_F(SessionTest, WhatFailsToBeMeasuredIsARowWithTheReasonAndTheNextIsMeasured) {
+    openView();
+    drawLast();
+    ASSERT_NE(waitFor("CODEC_JPEG"), "");
+    say(R"({"measureAccuracy":{"view":4}})");
+    ASSERT_EQ(render.measures.size(), 1U);
+    events.measured(render.measures[0].view, render.measures[0].tag,
+                    fail(ErrorCode::kTimeout, "missed its deadline of 5 ms"));
+    EXPECT_NE(waitFor("missed its deadline of 5 ms"), "");
+    ASSERT_EQ(render.measures.size(), 2U);
+    EXPECT_NE(render.measures[1].job.candidate, render.measures[0].job.candidate);
+    say(R"({"update":{"view":4,"inputSeq":"2","viewport":{"width":9,"height":9}}})");
+    drawLast();
+    EXPECT_NE(waitFor("CODEC_JPEG"), "");
 }
 
 TEST_F(SessionTest, RepliesThatNobodyReadsAreBounded) {
