@@ -24,11 +24,17 @@ bool splitsPieces(const WalkTraits& traits) {
     return integrates && traits.integrator == scene::Integrator::kExact;
 }
 
-// llvmpipe ends all loops of an invocation after 65,535 iterations together. A single loop counts
-// the steps of the longest of its 8 rays; nested loops may count those of all 8.
-constexpr int kMaxStepsConvex = 65000;
-constexpr int kMaxStepsListed = 8000;
-constexpr int kMaxDraws = 4096;  // Of one picture; 32 million cells on a ray.
+// llvmpipe ends all loops of an invocation after 65,535 iterations together. Where the mesh is
+// convex, its 8 rays go through the same rounds; entries of lists they may take one after the
+// other. A round is one cell; where pieces are split it has loops of its own.
+constexpr int kMostIterations = 65'000;
+constexpr int kIterationsOfSplits = 1 + 16 + 8;  // kCellsARound and kPartsARound of the shader.
+constexpr int kRays = 8;
+constexpr int kMaxDraws = 16'384;  // Of one picture; 6 million cells on a ray at least.
+
+int maxRounds(bool convex, bool splits) {
+    return kMostIterations / ((convex ? 1 : kRays) * (splits ? kIterationsOfSplits : 1));
+}
 
 bool isOneColour(const plan::LayerPlan& plan) {
     const auto colours = std::ranges::find(plan.effects, plan::kColours, &plan::Effect::name);
@@ -101,7 +107,8 @@ Result<void> drawLongRays(const DrawInputs& inputs, WalkCache& cache) {
     }
     return fail(ErrorCode::kLimitExceeded,
                 "mesh: a ray meets more than " + std::to_string(kMaxDraws) + " times " +
-                    std::to_string(kMaxStepsListed) + " cells or boundary faces");
+                    std::to_string(maxRounds(traits.convex, splitsPieces(traits))) +
+                    " cells or boundary faces");
 }
 
 }  // namespace
@@ -110,21 +117,22 @@ shading::Recipe walkRecipe(const WalkTraits& traits, std::vector<shading::Consta
     const scene::RayModelRow& row = scene::row(traits.model);
     const scene::IntegratorRow* integrator = scene::integratorRow(traits.model, traits.integrator);
     const bool listed = !traits.convex;
-    constants.insert(constants.end(), {{"kValuesAt", traits.valuesAt},
-                                       {"kDensityAt", traits.densityAt},
-                                       {"kListed", listed},
-                                       {"kContinuous", isContinuous(traits)},
-                                       {"kInterval", traits.interval},
-                                       {"kClipPlanes", traits.clipPlanes},
-                                       {"kLit", traits.lit},
-                                       {"kClipsAtStart", traits.clipsAtStart},
-                                       {"kEarlyStop", traits.earlyStop},
-                                       {"kMaxSteps", listed ? kMaxStepsListed : kMaxStepsConvex},
-                                       {"kSplits", splitsPieces(traits)},
-                                       {"kCounts", traits.counts},
-                                       {"kResumes", traits.resumes},
-                                       {"kPsiTableSide", shading::kPsiTableSide},
-                                       {"kCountsSteps", traits.countsSteps}});
+    constants.insert(constants.end(),
+                     {{"kValuesAt", traits.valuesAt},
+                      {"kDensityAt", traits.densityAt},
+                      {"kListed", listed},
+                      {"kContinuous", isContinuous(traits)},
+                      {"kInterval", traits.interval},
+                      {"kClipPlanes", traits.clipPlanes},
+                      {"kLit", traits.lit},
+                      {"kClipsAtStart", traits.clipsAtStart},
+                      {"kEarlyStop", traits.earlyStop},
+                      {"kMaxRounds", maxRounds(traits.convex, splitsPieces(traits))},
+                      {"kSplits", splitsPieces(traits)},
+                      {"kCounts", traits.counts},
+                      {"kResumes", traits.resumes},
+                      {"kPsiTableSide", shading::kPsiTableSide},
+                      {"kCountsSteps", traits.countsSteps}});
     shading::Recipe recipe{.evaluator = row.opaque ? "mesh/walk_opaque.glsl" : "mesh/walk.glsl",
                            .classify = "classify/transfer_function.glsl",
                            .segment = integrator == nullptr ? "" : std::string{integrator->chunk},
@@ -148,7 +156,7 @@ Result<void> drawWalk(const DrawInputs& inputs, WalkState& state) {
     // and a piece can have any number of parts.
     WalkTraits traits = traitsOf(inputs);
     const bool mayBeLong = !inputs.mesh->convex || splitsPieces(traits) ||
-                           inputs.mesh->cells.size() > std::size_t{kMaxStepsConvex};
+                           inputs.mesh->cells.size() > std::size_t{kMostIterations};
     traits.counts = mayBeLong;
     const auto program = inputs.programs->ray(walkRecipe(traits, inputs.constants));
     if (!program) return program.error();

@@ -33,8 +33,6 @@ Result<void> MapTable::set(gpu::Device& device, const MapContent& content) {
     content_ = content;
     search_ = table.search;
     densitySearch_ = table.densitySearch;
-    steps_ = table.steps;
-    densitySteps_ = table.densitySteps;
     slopes_ = table.slopes;
     densitySlopes_ = table.densitySlopes;
     return {};
@@ -56,8 +54,6 @@ std::vector<shading::Constant> MapTable::constants() const {
             {.name = "kDensitySearch", .value = static_cast<int>(densitySearch_)},
             {.name = "kMapSlopes", .value = slopes_},
             {.name = "kDensitySlopes", .value = densitySlopes_},
-            {.name = "kMapSteps", .value = steps_},
-            {.name = "kDensitySteps", .value = densitySteps_},
             {.name = "kTwoMaps", .value = !content_.densityMap.points.empty()},
             {.name = "kPreintegratedSide", .value = kPreintegratedSide}};
 }

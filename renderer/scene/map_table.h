@@ -26,7 +26,6 @@ private:
     MapSearch search_ = MapSearch::kCompareAll;
     MapSearch densitySearch_ = MapSearch::kCompareAll;
     int slopes_ = 0, densitySlopes_ = 0;
-    bool steps_ = false, densitySteps_ = false;
     gpu::Buffer buffer_;
 };
 

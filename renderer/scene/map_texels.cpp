@@ -158,10 +158,6 @@ Found appendMap(const data::TransferFunction& map, std::size_t header,
     return found;
 }
 
-bool hasSteps(const data::TransferFunction& map) {
-    return std::ranges::adjacent_find(map.points, {}, &ControlPoint::value) != map.points.end();
-}
-
 void append(std::vector<glm::vec4>& texels, const std::vector<glm::vec4>& section) {
     texels.insert(texels.end(), section.begin(), section.end());
 }
@@ -188,7 +184,6 @@ MapTexels mapTexels(const MapContent& content) {
     const Found found = appendMap(content.map, 0, table.texels);
     table.search = found.search;
     table.slopes = found.slopes;
-    table.steps = hasSteps(content.map);
     glm::vec4 sections{0.0F};
     const auto here = [&table] { return static_cast<float>(table.texels.size()); };
     if (!content.densityMap.points.empty()) {
@@ -196,7 +191,6 @@ MapTexels mapTexels(const MapContent& content) {
         const Found second = appendMap(content.densityMap, kHeaderOfMap, table.texels);
         table.densitySearch = second.search;
         table.densitySlopes = second.slopes;
-        table.densitySteps = hasSteps(content.densityMap);
     }
     sections.y = here();
     for (const LevelColour& level : content.levels) {

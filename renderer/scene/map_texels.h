@@ -41,8 +41,7 @@ struct MapTexels {
     std::vector<glm::vec4> texels;
     MapSearch search = MapSearch::kCompareAll;
     MapSearch densitySearch = MapSearch::kCompareAll;
-    int slopes = 0, densitySlopes = 0;         ///< kSlopes: how many are added up, 4 or 7.
-    bool steps = false, densitySteps = false;  ///< Two points have one value.
+    int slopes = 0, densitySlopes = 0;  ///< kSlopes: how many are added up, 4 or 7.
 };
 
 /// `content.map` must be valid.

@@ -75,7 +75,6 @@ ivec2 halved(int pieces, float value, ivec2 range) {
 }
 
 int pieceOf(float value, int search, int pieces, MapHead head) {
-    if (search == 3) return 0;
     if (search == 0) {
         ivec4 counts = ivec4(greaterThanEqual(vec4(value), head.values[0])) +
                        ivec4(greaterThanEqual(vec4(value), head.values[1]));
@@ -93,16 +92,17 @@ int pieceOf(float value, int search, int pieces, MapHead head) {
     return halved(pieces, value, halved(pieces, value, range)).x;
 }
 
-int mapPiece(float f) {
-    return pieceOf(f, kMapSearch, kMapPieces, mapHead);
+// Number of points that are not above a value, whatever the search.
+int pointsUpTo(float f) {
+    return pieceOf(f, kMapSearch == 3 ? 0 : kMapSearch, kMapPieces, mapHead);
 }
 
 int densityPieces() {
     return int(mapSections.x);
 }
 
-int densityPiece(float g) {
-    return pieceOf(g, kDensitySearch, densityPieces(), densityHead);
+int densityPointsUpTo(float g) {
+    return pieceOf(g, kDensitySearch == 3 ? 0 : kDensitySearch, densityPieces(), densityHead);
 }
 
 // How much of the first 7 pieces between points lies below `value`, each from 0 to 1.
@@ -117,83 +117,52 @@ vec4 sumOfSlopes(MapHead head, float value, int slopes) {
     return matter;
 }
 
-// The first point's value that is met on the way from `from` towards `to`, or `to`.
-float nextPoint(MapHead head, float from, float to, int slopes) {
-    float above = 3.4e38;
-    float below = -3.4e38;
-    for (int i = 0; i <= slopes; ++i) {
-        float value = head.values[i / 4][i % 4];
-        above = min(above, value > from ? value : 3.4e38);
-        below = max(below, value < from ? value : -3.4e38);
-    }
-    return to >= from ? min(above, to) : max(below, to);
-}
-
 // One linear piece of a map.
 struct MapPiece {
-    vec4 start;  // colour and extinction at `low`
+    int index;
+    vec4 start;  // colour and extinction at `from`
     vec4 slope;
+    float from;
     float low, high;  // values
 };
 
-MapPiece fetchPiece(int pieces, int piece) {
-    int texel = pieces + 3 * piece;
+MapPiece fetchPiece(int pieces, int index) {
+    int texel = pieces + 3 * index;
     vec4 place = texelFetch(mapTexels, texel + 2);
-    return MapPiece(texelFetch(mapTexels, texel), texelFetch(mapTexels, texel + 1), place.x,
-                    place.w);
+    return MapPiece(index, texelFetch(mapTexels, texel), texelFetch(mapTexels, texel + 1), place.x,
+                    index == 0 ? -3.4e38 : place.x, place.w);
 }
 
 vec4 valueIn(MapPiece piece, float value) {
-    return piece.start + (value - piece.low) * piece.slope;
+    return piece.start + (value - piece.from) * piece.slope;
 }
 
-// What a map gives at `value`, which is in `piece` or at its end.
-vec4 valueOf(int search, int slopes, MapHead head, int pieces, int piece, float value) {
+vec4 valueOf(int search, int slopes, MapHead head, int pieces, float value) {
     return search == 3 ? sumOfSlopes(head, value, slopes)
-                       : valueIn(fetchPiece(pieces, piece), value);
+                       : valueIn(fetchPiece(pieces, pieceOf(value, search, pieces, head)), value);
 }
 
-// Where the map bends next on the way from `from` in `piece` towards `to`; `to` where it does not.
-float bendOf(int search, int slopes, MapHead head, int pieces, int piece, float from, float to) {
-    if (search == 3) return nextPoint(head, from, to, slopes);
-    MapPiece here = fetchPiece(pieces, piece);
-    return clamp(to, piece == 0 ? -3.4e38 : here.low, here.high);
+vec4 mapValue(float f) {
+    return valueOf(kMapSearch, kMapSlopes, mapHead, kMapPieces, f);
 }
 
-vec4 mapValue(int piece, float f) {
-    return valueOf(kMapSearch, kMapSlopes, mapHead, kMapPieces, piece, f);
-}
-
-vec4 densityValue(int piece, float g) {
-    return valueOf(kDensitySearch, kDensitySlopes, densityHead, densityPieces(), piece, g);
-}
-
-float mapBend(int piece, float from, float to) {
-    return bendOf(kMapSearch, kMapSlopes, mapHead, kMapPieces, piece, from, to);
-}
-
-float densityBend(int piece, float from, float to) {
-    return bendOf(kDensitySearch, kDensitySlopes, densityHead, densityPieces(), piece, from, to);
+vec4 densityValue(float g) {
+    return valueOf(kDensitySearch, kDensitySlopes, densityHead, densityPieces(), g);
 }
 
 vec4 classify(float f) {
-    vec4 matter = mapValue(mapPiece(f), f);
+    vec4 matter = mapValue(f);
     return vec4(matter.rgb, max(matter.a, 0.0));
 }
 
 // C of the map of g.
 vec3 densityColour(float g) {
-    return densityValue(densityPiece(g), g).rgb;
+    return densityValue(g).rgb;
 }
 
 vec4 matterAt(float f, float g) {
     vec4 matter = classify(f);
-    return kTwoMaps ? vec4(matter.rgb, max(densityValue(densityPiece(g), g).a, 0.0)) : matter;
-}
-
-// Number of points that are not above `f`, whatever the search.
-int pointsUpTo(float f) {
-    return pieceOf(f, kMapSearch == 3 ? 0 : kMapSearch, kMapPieces, mapHead);
+    return kTwoMaps ? vec4(matter.rgb, max(densityValue(g).a, 0.0)) : matter;
 }
 
 bool transparentBetween(float lo, float hi) {

@@ -35,4 +35,7 @@ struct Segment {
     float distance;  // from the ray's origin to the front end, world units
 };
 
+// While an evaluator sets this, integrateSegment may leave a piece as it is instead of taking a part.
+bool wholePieces = false;
+
 const float kNoHit = 3.0e38;

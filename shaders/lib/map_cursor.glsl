@@ -1,20 +1,22 @@
-// Where a ray is in its layer's maps: the pieces that hold its values, and what they give there.
-// Along a ray that goes on, the next piece is a neighbour of the last: nothing has to be searched.
-// Constants: kMapSteps, kDensitySteps: the maps of f and g jump somewhere.
+// Where a ray is in its layer's maps. Along a ray that goes on, the next piece of a map is a neighbour
+// of the last: nothing has to be searched.
 struct MapCursor {
-    int piece;         // of f
-    int densityPiece;  // of g; kTwoMaps
-    vec4 matter;       // C(f), rho(g) at the front of what comes next
+    MapPiece piece;         // of f
+    MapPiece densityPiece;  // of g; kTwoMaps
+    vec4 matter;            // C(f), rho(g) at the front of what comes next
 };
 
 MapCursor noCursor() {
-    return MapCursor(0, 0, vec4(0.0));
+    MapPiece none = MapPiece(0, vec4(0.0), vec4(0.0), 0.0, 0.0, 0.0);
+    return MapCursor(none, none, vec4(0.0));
 }
 
 // To be called where values do not continue those before.
 void placeCursor(inout MapCursor cursor, Segment piece) {
-    cursor.piece = mapPiece(piece.front);
-    if (kTwoMaps) cursor.densityPiece = densityPiece(piece.densityFront);
+    cursor.piece = fetchPiece(kMapPieces, pointsUpTo(piece.front));
+    if (kTwoMaps) {
+        cursor.densityPiece = fetchPiece(densityPieces(), densityPointsUpTo(piece.densityFront));
+    }
     cursor.matter = matterAt(piece.front, piece.densityFront);
 }
 
@@ -22,6 +24,23 @@ void placeCursor(inout MapCursor cursor, Segment piece) {
 void takeAll(inout MapCursor cursor, inout Segment rest, vec4 matter) {
     rest.extent = -1.0;
     cursor.matter = matter;
+}
+
+// C(f) and rho(g) of values in the cursor's pieces.
+vec4 matterIn(MapCursor cursor, float f, float g) {
+    vec4 matter = valueIn(cursor.piece, f);
+    if (kTwoMaps) matter.a = valueIn(cursor.densityPiece, g).a;
+    return vec4(matter.rgb, max(matter.a, 0.0));
+}
+
+bool holds(MapPiece piece, float value) {
+    return value >= piece.low && value <= piece.high;
+}
+
+// Both maps are linear on all of a segment.
+bool isLinear(MapCursor cursor, Segment rest) {
+    return holds(cursor.piece, rest.back) &&
+           (!kTwoMaps || holds(cursor.densityPiece, rest.densityBack));
 }
 
 // The front part of a segment, in which both maps are linear.
@@ -44,20 +63,14 @@ float shareUpTo(float bend, float front, float back) {
 
 LinearPart linearPart(MapCursor cursor, Segment rest) {
     LinearPart part;
-    part.first = cursor.matter;
-    // Beyond a step the map begins anew.
-    if (kMapSteps) part.first = mapValue(cursor.piece, rest.front);
-    if (kTwoMaps && (kMapSteps || kDensitySteps)) {
-        part.first.a = densityValue(cursor.densityPiece, rest.densityFront).a;
-    }
-    if (kMapSteps || kDensitySteps) part.first.a = max(part.first.a, 0.0);
-    part.f = mapBend(cursor.piece, rest.front, rest.back);
+    part.first = matterIn(cursor, rest.front, rest.densityFront);
+    part.f = clamp(rest.back, cursor.piece.low, cursor.piece.high);
     part.g = rest.densityBack;
     part.all = part.f == rest.back;
     float share = part.all ? 1.0 : shareUpTo(part.f, rest.front, rest.back);
     part.turn = ivec2(part.all ? 0 : stepTowards(part.f, rest.back), 0);
     if (kTwoMaps) {
-        float g = densityBend(cursor.densityPiece, rest.densityFront, rest.densityBack);
+        float g = clamp(rest.densityBack, cursor.densityPiece.low, cursor.densityPiece.high);
         bool whole = g == rest.densityBack;
         float other = whole ? 1.0 : shareUpTo(g, rest.densityFront, rest.densityBack);
         // The map that bends first decides; where both do, both go on.
@@ -71,9 +84,7 @@ LinearPart linearPart(MapCursor cursor, Segment rest) {
         share = second ? other : share;
         part.all = part.all && whole;
     }
-    part.last = mapValue(cursor.piece, part.f);
-    if (kTwoMaps) part.last.a = densityValue(cursor.densityPiece, part.g).a;
-    part.last.a = max(part.last.a, 0.0);
+    part.last = matterIn(cursor, part.f, part.g);
     part.extent = part.all ? rest.extent : rest.extent * share;
     return part;
 }
@@ -94,7 +105,7 @@ void takePart(inout MapCursor cursor, inout Segment rest, LinearPart part) {
     if (kTwoMaps) rest.densityFront = part.g;
     rest.distance += part.extent;
     rest.extent = part.all ? -1.0 : max(rest.extent - part.extent, 0.0);
-    cursor.piece += part.turn.x;
-    if (kTwoMaps) cursor.densityPiece += part.turn.y;
-    cursor.matter = part.last;
+    cursor.piece = fetchPiece(kMapPieces, cursor.piece.index + part.turn.x);
+    if (!kTwoMaps) return;
+    cursor.densityPiece = fetchPiece(densityPieces(), cursor.densityPiece.index + part.turn.y);
 }

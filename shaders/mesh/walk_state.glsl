@@ -13,14 +13,13 @@ struct Walk {
     Corner behind;
 };
 
-// The mean of three values by areas that are not negative, between the values also after rounding,
-// so that a constant field stays constant; `known` where the areas are all 0.
+// The mean of three values by areas that are not negative, exact where the values are equal; `known`
+// where the areas are all 0.
 float meanOf(vec3 values, vec3 weights, float known) {
     float sum = weights.x + weights.y + weights.z;
-    float mean = dot(weights, values) / sum;
-    float low = min(values.x, min(values.y, values.z));
-    float high = max(values.x, max(values.y, values.z));
-    return sum > 0.0 ? clamp(mean, low, high) : known;
+    vec2 shares = weights.yz * (1.0 / sum);
+    float mean = values.x + (shares.x * (values.y - values.x) + shares.y * (values.z - values.x));
+    return sum > 0.0 ? mean : known;
 }
 
 Walk walkOn(int cell, int apex, Corner a, Corner b, Corner c, vec3 areas) {

@@ -82,12 +82,11 @@ TEST_F(Steps, OfAllDrawsOfRaysTooLongForOneAreAddedUp) {
                          RayModel::kVolume, fog(1e-5F));
     scene.layers[0].integrator = Integrator::kAverage;
     const scene::PictureSize size{4, 4};
-    // The first draw's 8000 steps a ray are taken again; each draw enters once, the hollow once
-    // more: a few steps each.
+    // The first draw's steps are taken again: some 8100 a ray, as two rounds go into entering.
     const std::uint64_t least = cellsMet(scene, size) + 16U * 8000U;
     const std::uint64_t steps = walkSteps(scene, size);
     EXPECT_GE(steps, least);
-    EXPECT_LT(steps, least + 16U * 100U);
+    EXPECT_LT(steps, least + 16U * 200U);
 }
 
 TEST_F(Steps, AreCountedByAnotherProgramOnlyWhereAskedFor) {

@@ -21,8 +21,10 @@ void main() {
             rest = Segment(s.x, s.y, s.x, s.y, s.z, s.w);
             if (texelFetch(segments, 2 * (ray.x + taken) + 1).x > 0.0) enterData(state, rest);
             ++taken;
+            wholePieces = true;
         }
         finished = stepRay(state, rest);
+        wholePieces = false;  // What could not be taken whole is taken in parts.
         ++rounds;
     }
     answer = endRay(state, 1.0);

@@ -2,9 +2,7 @@
 #include "lib/psi_short.glsl"
 
 vec3 weightsOf(float a, float b) {
-    float sum = a + b;
-    vec2 share = psiShort(0.5 * sum, sum > 0.0 ? (b - a) / sum : 0.0);
-    float back = share.x * share.y;
-    return vec3(share.y - back, back, share.y);
+    vec2 share = psiShort(0.5 * (a + b), 0.5 * (b - a));
+    return vec3(0.5 * share.x - share.y, 0.5 * share.x + share.y, share.x);
 }
 #include "weights_main.glsl"
