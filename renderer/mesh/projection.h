@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -21,6 +22,9 @@ public:
 
     /// Of the last picture; no cells where its model needs no order.
     [[nodiscard]] virtual OrderReport order() const = 0;
+
+    /// Cells in the last picture; of isosurfaces one for each level that a cell meets.
+    [[nodiscard]] virtual std::uint64_t cellsDrawn() const = 0;
 
 protected:
     ProjectionState() = default;

@@ -12,6 +12,7 @@ Result<void> ProjectionCache::prepare(const DrawInputs& inputs, bool sorted) {
     if (auto done = camera_.prepare(inputs); !done) return done;
     if (auto done = findCorners(inputs); !done) return done;
     sorted_ = sorted;
+    cellsDrawn_ = inputs.mesh->cells.size();
     if (sorted) {
         if (auto done = sort(inputs); !done) return done;
     }
@@ -22,7 +23,9 @@ Result<void> ProjectionCache::prepareLevels(const DrawInputs& inputs) {
     if (auto done = camera_.prepare(inputs); !done) return done;
     if (auto done = findCorners(inputs); !done) return done;
     sorted_ = false;
-    return levels_.prepare(inputs, corners_);
+    if (auto done = levels_.prepare(inputs, corners_); !done) return done;
+    cellsDrawn_ = static_cast<std::uint64_t>(levels_.count());
+    return {};
 }
 
 Result<void> ProjectionCache::findCorners(const DrawInputs& inputs) {

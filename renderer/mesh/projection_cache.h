@@ -34,6 +34,7 @@ public:
     void bindShares() const;
 
     [[nodiscard]] OrderReport order() const override;
+    [[nodiscard]] std::uint64_t cellsDrawn() const override { return cellsDrawn_; }
 
     static ProjectionCache& of(ProjectionState& state) {
         return static_cast<ProjectionCache&>(state);
@@ -49,6 +50,7 @@ private:
     std::uint64_t orderMesh_ = 0;    ///< The serial of the mesh that `order_` is for.
     std::uint64_t orderCamera_ = 0;  ///< The version of `camera_` that it was sorted for.
     bool sorted_ = false;            ///< The last picture was.
+    std::uint64_t cellsDrawn_ = 0;
     gpu::Buffer corners_, cells_;
     LevelCells levels_;
     std::uint64_t cornersMesh_ = 0;

@@ -89,7 +89,7 @@ std::vector<LayerSteps> stepsOf(const Frame& frame) {
         if (!cells) continue;
         LayerSteps& one = steps.emplace_back(LayerSteps{.layer = draw.layer->id});
         if (isProjected(draw)) {
-            one.cellsDrawn = meshOf(draw).cells.size();
+            one.cellsDrawn = draw.state->projection->cellsDrawn();
         } else {
             one.walkSteps = draw.state->walk->steps();
         }

@@ -114,6 +114,21 @@ TEST_F(Steps, OfTheProjectionAreItsCells) {
     const scene::FrameInfo info = counted(scene, kSize);
     EXPECT_EQ(info.steps[0].cellsDrawn, mesh_.cells.size());
     EXPECT_EQ(info.steps[0].walkSteps, 0U);
+    // Of an isosurface those that have corners on both sides of the level.
+    scene = boxScene(RayModel::kIsosurface);
+    scene.layers[0].levels = {.values = {0.3F}};
+    const auto& values = mesh_.fields.at(0).steps.at(0);
+    std::size_t met = 0;
+    for (const glm::ivec4& cell : mesh_.cells.span()) {
+        int below = 0;
+        for (int i = 0; i < 4; ++i) {
+            below += values[static_cast<std::size_t>(cell[i])] < 0.3F ? 1 : 0;
+        }
+        if (below > 0 && below < 4) ++met;
+    }
+    EXPECT_GT(met, 0U);
+    EXPECT_LT(met, mesh_.cells.size());
+    EXPECT_EQ(counted(scene, kSize).steps[0].cellsDrawn, met);
 }
 
 }  // namespace
