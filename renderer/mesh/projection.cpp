@@ -60,7 +60,6 @@ Result<void> drawLevels(const DrawInputs& inputs, ProjectionCache& cache) {
     const LevelTraits traits{.valuesAt = valuesAt(inputs.field),
                              .densityAt = valuesAt(inputs.density),
                              .lit = inputs.plan->has(plan::kGradient),
-                             .interval = inputs.plan->has(plan::kInterval),
                              .clipPlanes = inputs.clipPlanes,
                              .clipsAtStart = inputs.planeDepth <= 0.0};
     const auto program = inputs.programs->ray(levelRecipe(traits, inputs.constants), kLevelVertex);
@@ -110,7 +109,6 @@ shading::Recipe levelRecipe(const LevelTraits& traits, std::vector<shading::Cons
     constants.insert(constants.end(), {{"kValuesAt", traits.valuesAt},
                                        {"kDensityAt", traits.densityAt},
                                        {"kLit", traits.lit},
-                                       {"kInterval", traits.interval},
                                        {"kClipPlanes", traits.clipPlanes},
                                        {"kClipsAtStart", traits.clipsAtStart},
                                        {"kCellsAnInstance", kCellsAnInstance}});

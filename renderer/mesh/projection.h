@@ -74,7 +74,6 @@ struct LevelTraits {
     int valuesAt = 0;   ///< Of f.
     int densityAt = 3;  ///< Of g.
     bool lit = false;
-    bool interval = false;
     int clipPlanes = 0;
     bool clipsAtStart = false;  ///< Rays may start within the mesh.
 };

@@ -88,6 +88,10 @@ void planVisible(LayerPlan& plan, const Matter& matter) {
         add(plan, kVisible, false,
             "the map has no extinction in the data's range, " + number(matter.field->range.min) +
                 " to " + number(matter.field->range.max));
+    } else if (matter.layer.model == RayModel::kIsosurface &&
+               scene::levelsOf(matter.layer).empty()) {
+        plan.drawn = false;
+        add(plan, kVisible, false, "no level is in the interval");
     } else {
         add(plan, kVisible, true, "the layer is shown");
     }
@@ -130,10 +134,13 @@ void planCells(LayerPlan& plan, const Matter& matter) {
 
 void planSelection(LayerPlan& plan, const Matter& matter, const scene::Scene& scene) {
     const Layer& layer = matter.layer;
-    add(plan, kInterval, layer.interval.has_value(),
-        layer.interval ? "only values from " + number(layer.interval->min) + " to " +
-                             number(layer.interval->max) + " count"
-                       : "all values count");
+    // Of isosurfaces the levels are chosen by it once; rays need not look.
+    const bool interval = layer.interval && layer.model != RayModel::kIsosurface;
+    add(plan, kInterval, interval,
+        interval ? "only values from " + number(layer.interval->min) + " to " +
+                       number(layer.interval->max) + " count"
+        : layer.interval ? "levels outside of it are left out"
+                         : "all values count");
     const std::size_t planes = scene.clipPlanes.size();
     add(plan, kClipPlanes, planes > 0,
         planes > 0 ? std::to_string(planes) + " plane(s) cut the data" : "no plane cuts the data");
@@ -169,7 +176,7 @@ constexpr std::size_t kMostLevelsDrawn = 8;
 
 bool fewLevels(const Layer& layer) {
     return layer.model == RayModel::kIsosurface &&
-           scene::resolved(layer.levels).size() <= kMostLevelsDrawn;
+           scene::levelsOf(layer).size() <= kMostLevelsDrawn;
 }
 
 Evaluator evaluatorFor(const Layer& layer) {

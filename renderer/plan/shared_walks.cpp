@@ -12,10 +12,11 @@ namespace {
 using scene::Layer;
 using scene::RayModel;
 
-/// Rays of both meet the same pieces with the same values.
+/// Rays of both meet the same pieces with the same values. An interval cuts the pieces of a volume and
+/// would cut off levels at its ends.
 bool sameData(const Layer& a, const Layer& b) {
     return a.dataset == b.dataset && a.field == b.field && a.timeStep == b.timeStep &&
-           a.scale == b.scale && a.interval == b.interval && a.markers == b.markers;
+           a.scale == b.scale && !a.interval && !b.interval && a.markers == b.markers;
 }
 
 bool isPlainIsosurface(const Layer& layer, const LayerPlan& plan) {

@@ -15,7 +15,7 @@ void appendLevels(const Layer& layer, const data::DatasetSummary& summary,
     const FieldUse use = mainField(layer, summary);
     const ScaleFunction scale{use.scale, use.field->range};
     const data::TransferFunction map = scaled(layer.map, scale);
-    for (const float level : resolved(layer.levels)) {
+    for (const float level : levelsOf(layer)) {
         const float value = scale.ofPoint(level);
         levels.push_back({.value = value, .colour = glm::vec3(data::evaluate(map, value))});
     }

@@ -9,7 +9,6 @@ namespace {
 
 using data::ControlPoint;
 
-constexpr std::size_t kTexelsAPiece = 3;
 constexpr std::size_t kHeaderOfMap = 13;                    // Texels.
 constexpr std::size_t kScales = 3, kBelow = 5, kRises = 6;  // Places in it.
 constexpr std::size_t kMostSlopes = 7;

@@ -94,6 +94,16 @@ Result<void> validate(const Scale& scale, const data::Range& range, const std::s
     return {};
 }
 
+std::vector<float> levelsOf(const Layer& layer) {
+    std::vector<float> levels = resolved(layer.levels);
+    if (layer.interval) {
+        std::erase_if(levels, [&](float level) {
+            return level < layer.interval->min || level > layer.interval->max;
+        });
+    }
+    return levels;
+}
+
 Result<void> validate(const Levels& levels, const std::string& path) {
     const bool list = levels.spacing == Levels::Spacing::kList;
     const long count = list ? static_cast<long>(levels.values.size()) : levels.count;

@@ -40,6 +40,9 @@ data::TransferFunction scaled(const data::TransferFunction& map, const ScaleFunc
 /// The levels in the field's unit, ascending, each once. `levels` must be valid.
 std::vector<float> resolved(const Levels& levels);
 
+/// Those of an isosurface's levels that its interval lets through, ends included.
+std::vector<float> levelsOf(const Layer& layer);
+
 /// Checks a scale against the range of its field: kLog needs a domain above 0, kPower an exponent
 /// above 0, a domain is finite with min < max.
 ///

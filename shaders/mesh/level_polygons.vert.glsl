@@ -2,8 +2,7 @@
 // a cell, kCellsAnInstance cells an instance. A triangle covers all pixels whose lines may meet it
 // (mesh/outline.glsl). Its corners are points on edges of the cell, made from the edge's ends in the
 // order of their numbers: all cells around an edge make the same bits.
-// Constants: kValuesAt, kDensityAt; kTwoMaps: coloured by g; kLit; kInterval: levels outside of an
-// interval are left out; kCellsAnInstance.
+// Constants: kValuesAt, kDensityAt; kTwoMaps: coloured by g; kLit; kCellsAnInstance.
 // Source: A. Doi, A. Koide, An Efficient Method of Triangulating Equi-Valued Surfaces by Using
 // Tetrahedral Cells, IEICE Transactions E74(1), 1991.
 #include "mesh/corner_values.glsl"
@@ -95,10 +94,6 @@ vec3 gradientIn(Cell cell) {
     return scaled(rise.x * cross(v, w) + rise.y * cross(w, u) + rise.z * cross(u, v));
 }
 
-bool isWanted(float level) {
-    return !kInterval || (level >= layer.gather.z && level <= layer.gather.w);
-}
-
 void main() {
     int place = gl_VertexID / 6 + kCellsAnInstance * gl_InstanceID;
     int part = gl_VertexID % 6 / 3;
@@ -115,7 +110,7 @@ void main() {
     float level = texelFetch(levelValues, listed.y).r;
     Cell cell = cellOf(listed.x);
     Edges edges = edgesBetween(lessThan(cell.f, vec4(level)), part);
-    if (edges.from.x < 0 || !isWanted(level)) return;
+    if (edges.from.x < 0) return;
     ivec2 a, b, c;
     pointA = pointOn(cell, edges.from.x, edges.to.x, level, a);
     pointB = pointOn(cell, edges.from.y, edges.to.y, level, b);

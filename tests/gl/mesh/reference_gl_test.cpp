@@ -165,6 +165,24 @@ TEST_F(AgainstReference, IntervalsClipPlanesAndMarkersUnderEveryModel) {
     }
 }
 
+TEST_F(AgainstReference, LevelsAtTheEndsOfAnIntervalAreDrawn) {
+    useBox(true);
+    Scene scene = withModel(cameras()[0], RayModel::kIsosurface, "p1");
+    scene.layers[0].levels = {.values = {0.2F, 0.35F, 0.5F, 0.7F, 0.8F}};
+    const auto all = draw(scene, kSize).linear;
+    scene.layers[0].interval = data::Range{.min = 0.35F, .max = 0.7F};
+    for (const auto evaluator : {scene::MeshEvaluator::kAuto, scene::MeshEvaluator::kWalk}) {
+        scene.layers[0].evaluator = evaluator;
+        expectClose(scene, kSize, 2e-4, "levels in an interval");
+        const auto some = draw(scene, kSize).linear;
+        EXPECT_NE(some, all);
+        Scene named = scene;
+        named.layers[0].interval.reset();
+        named.layers[0].levels.values = {0.35F, 0.5F, 0.7F};
+        EXPECT_EQ(some, draw(named, kSize).linear);
+    }
+}
+
 TEST_F(AgainstReference, ScalesOfValues) {
     useBox(false);
     const scene::Scale log{.kind = scene::Scale::Kind::kLog};

@@ -262,7 +262,6 @@ void Validator::addLevels() {
         addRay(mesh::levelRecipe({.valuesAt = variant % 3,
                                   .densityAt = variant % 4,
                                   .lit = bit(variant, 0),
-                                  .interval = bit(variant, 1),
                                   .clipPlanes = bit(variant, 2) ? 2 : 0,
                                   .clipsAtStart = bit(variant, 3)},
                                  support::layerConstants(variant)),

@@ -124,6 +124,14 @@ TEST_F(Plan, FewLevelsAreDrawnAloneAndManyInOneWalk) {
     EXPECT_EQ(planned().evaluator, Evaluator::kMeshWalk);
     EXPECT_FALSE(planned().has(kCellsOfLevels));
     EXPECT_TRUE(lists(planned(), kReEntry));
+    layer_.levels.first = 11;
+    layer_.levels.last = 19;
+    layer_.interval = data::Range{.min = 12.0F, .max = 18.0F};  // Leaves 7 of 9.
+    EXPECT_EQ(planned().evaluator, Evaluator::kMeshProjection);
+    EXPECT_FALSE(planned().has(kInterval));
+    layer_.interval = data::Range{.min = 12.1F, .max = 12.2F};
+    EXPECT_FALSE(planned().drawn);
+    layer_.interval.reset();
     layer_.levels.count = 1;
     layer_.evaluator = scene::MeshEvaluator::kWalk;
     EXPECT_EQ(planned().evaluator, Evaluator::kMeshWalk);
