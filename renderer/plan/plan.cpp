@@ -163,8 +163,8 @@ void planCamera(LayerPlan& plan, const Matter& matter, const scene::Camera& came
                 : "the eye is outside the bounds");
 }
 
-/// Each level is drawn by itself; a walk finds any number of them at once, but costs as much as some
-/// ten of them.
+/// Each level is drawn by itself; a walk finds any number of them at once, but costs as much as
+/// some ten of them.
 constexpr std::size_t kMostLevelsDrawn = 8;
 
 bool fewLevels(const Layer& layer) {
@@ -217,6 +217,11 @@ void planMethod(LayerPlan& plan, const Matter& matter, const scene::Accuracy& wi
         uniform ? "the map has one colour: opacity alone is gathered" : "the map has colours");
 }
 
+void planHeadlight(LayerPlan& plan, const Layer& isosurface) {
+    add(plan, kGradient, isosurface.headlight,
+        isosurface.headlight ? "lit from the eye" : "unlit, so no gradient is needed");
+}
+
 void planMeshRays(LayerPlan& plan, const Matter& matter, const scene::Accuracy& wish,
                   std::span<const Evidence> evidence) {
     plan.evaluator = evaluatorFor(matter.layer);
@@ -241,10 +246,7 @@ void planMeshRays(LayerPlan& plan, const Matter& matter, const scene::Accuracy& 
         add(plan, kVisibilityOrder, ordered,
             ordered ? "cells are blended front to back" : "the order of cells makes no difference");
     }
-    if (levels) {
-        add(plan, kGradient, matter.layer.headlight,
-            matter.layer.headlight ? "lit from the eye" : "unlit, so no gradient is needed");
-    }
+    if (levels) planHeadlight(plan, matter.layer);
     planEarlyStop(plan, matter);
 }
 
@@ -278,14 +280,28 @@ void planStep(LayerPlan& plan, const Matter& matter) {
             : "the step is as asked for");
 }
 
+/// Why bricks can be passed over whatever the map; empty where they cannot.
+std::string reasonToPassOver(RayModel model) {
+    switch (model) {
+        case RayModel::kMip: return "a brick that cannot raise the maximum is passed over";
+        case RayModel::kMinip: return "a brick that cannot lower the minimum is passed over";
+        case RayModel::kIsosurface: return "a brick between two levels is passed over";
+        default: return {};
+    }
+}
+
 void planBricks(LayerPlan& plan, const Matter& matter) {
     const glm::ivec3 intervals = matter.summary.voxels - 1;
     const bool several =
         std::max({intervals.x, intervals.y, intervals.z}) > data::Volume::kBrickSize;
     if (!several) {
         add(plan, kEmptyBricks, false, "the volume is a single brick");
-    } else if (matter.layer.model == RayModel::kMip) {
-        add(plan, kEmptyBricks, true, "a brick that cannot raise the maximum is passed over");
+    } else if (matter.layer.interval && matter.layer.model != RayModel::kIsosurface) {
+        add(plan, kEmptyBricks, true, "a brick without values in the interval is passed over");
+    } else if (!absorbs(matter.layer.model)) {
+        const std::string reason = reasonToPassOver(matter.layer.model);
+        add(plan, kEmptyBricks, !reason.empty(),
+            reason.empty() ? "every value of a brick may add to the ray" : reason);
     } else if (matter.extinction.min > 0.0F) {
         add(plan, kEmptyBricks, false, "the map has extinction everywhere in the data's range");
     } else {
@@ -293,12 +309,21 @@ void planBricks(LayerPlan& plan, const Matter& matter) {
     }
 }
 
+/// What the model does with samples: a sample's piece is constant, so that cheap ways are right.
+scene::Integrator methodOfSamples(RayModel model, bool continuous) {
+    const scene::Integrator cheapest = scene::row(model).integrators.front().integrator;
+    // A field that is continuous has every value between those of its samples.
+    return model == RayModel::kMipColour && continuous ? scene::Integrator::kExact : cheapest;
+}
+
 void planVoxels(LayerPlan& plan, const Matter& matter) {
     plan.evaluator = Evaluator::kVolumeMarch;
     plan.integrator = "march";
     const bool trilinear = matter.layer.sampling == scene::Sampling::kTrilinear;
+    plan.method = methodOfSamples(matter.layer.model, trilinear);
     add(plan, kInterpolation, trilinear,
         trilinear ? "trilinear between grid points" : "the nearest grid point's value");
+    if (matter.layer.model == RayModel::kIsosurface) planHeadlight(plan, matter.layer);
     planStep(plan, matter);
     planBricks(plan, matter);
     planEarlyStop(plan, matter);

@@ -16,6 +16,11 @@ void appendLevels(const Layer& layer, const data::DatasetSummary& summary,
     const ScaleFunction scale{use.scale, use.field->range};
     const data::TransferFunction map = scaled(layer.map, scale);
     for (const float level : resolved(layer.levels)) {
+        // Of a mesh the interval cuts pieces; voxels have no face to cut at.
+        if (!summary.isMesh && layer.interval &&
+            (level < layer.interval->min || level > layer.interval->max)) {
+            continue;
+        }
         const float value = scale.ofPoint(level);
         levels.push_back({.value = value, .colour = glm::vec3(data::evaluate(map, value))});
     }

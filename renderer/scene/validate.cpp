@@ -208,6 +208,29 @@ Result<void> validateMesh(const Layer& layer, const data::DatasetSummary& summar
     return validateScales(layer, *f, *g, path);
 }
 
+/// What voxels do not have yet.
+Result<void> validateVolume(const Layer& layer, const std::string& path) {
+    const auto unsupported = [](const std::string& field, const std::string& why) {
+        return fail(ErrorCode::kUnsupported, field + ": " + why, field);
+    };
+    if (!row(layer.model).onVolumes) {
+        return unsupported(path + ".model",
+                           std::string{name(layer.model)} +
+                               " draws the faces of a mesh; a volume of voxels has none");
+    }
+    if (!layer.densityField.empty()) {
+        return unsupported(path + ".density_field",
+                           "a volume is drawn by one channel, which gives colour and extinction");
+    }
+    if (layer.scale.kind != Scale::Kind::kLinear || layer.scale.domain) {
+        return unsupported(path + ".scale", "values of voxels are taken as they are");
+    }
+    if (!layer.markers.field.empty()) {
+        return unsupported(path + ".markers.field", "a volume of voxels has no cells to mark");
+    }
+    return {};
+}
+
 Result<void> validateField(const Layer& layer, const data::DatasetSummary& summary,
                            const std::string& path) {
     if (summary.fields.empty()) {
@@ -298,15 +321,10 @@ Result<void> validate(const Scene& scene, const Summaries& summaries) {
                         pathOf(i) + ".dataset: there is no dataset \"" + layer.dataset + "\"",
                         pathOf(i) + ".dataset");
         }
-        if (!found->second.isMesh && !row(layer.model).onVolumes) {
-            return fail(ErrorCode::kUnsupported,
-                        pathOf(i) + ".model: " + std::string{name(layer.model)} +
-                            " does not draw voxel volumes",
-                        pathOf(i) + ".model");
-        }
         Result<void> valid = validateField(layer, found->second, pathOf(i));
-        if (valid && found->second.isMesh) {
-            valid = validateMesh(layer, found->second, pathOf(i));
+        if (valid) {
+            valid = found->second.isMesh ? validateMesh(layer, found->second, pathOf(i))
+                                         : validateVolume(layer, pathOf(i));
         }
         if (!valid) return valid.error();
     }

@@ -1,7 +1,9 @@
 #include "renderer/scene/validate.h"
 
 #include <cmath>
+#include <initializer_list>
 #include <limits>
+#include <utility>
 
 #include "gtest/gtest.h"
 
@@ -113,6 +115,15 @@ TEST(ValidateScene, AgainstItsData) {
               (Refusal{ErrorCode::kInvalidArgument, "layers[0].time_step"}));
     EXPECT_EQ(refused(volumeSummary(), [](Layer& l) { l.model = RayModel::kSurface; }),
               (Refusal{ErrorCode::kUnsupported, "layers[0].model"}));
+    for (const auto& [field, edit] :
+         std::initializer_list<std::pair<const char*, void (*)(Layer&)>>{
+             {"layers[0].density_field", [](Layer& l) { l.densityField = "f"; }},
+             {"layers[0].scale", [](Layer& l) { l.scale.kind = Scale::Kind::kLog; }},
+             {"layers[0].scale", [](Layer& l) { l.scale.domain = {.min = 1.0F, .max = 2.0F}; }},
+             {"layers[0].markers.field",
+              [](Layer& l) { l.markers = {.field = "f", .values = {1.0F}}; }}}) {
+        EXPECT_EQ(refused(volumeSummary(), edit), (Refusal{ErrorCode::kUnsupported, field}));
+    }
     data::DatasetSummary bare = meshSummary();
     bare.fields.clear();
     EXPECT_EQ(refused(bare, [](Layer& l) { l.model = RayModel::kVolume; }),
