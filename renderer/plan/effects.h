@@ -26,13 +26,13 @@ inline constexpr const char* kVisibilityOrder = "visibility order";  ///< Cells 
 inline constexpr const char* kLevelsInVolume = "isosurfaces in the volume";
 inline constexpr const char* kSharedWalk = "shared walk";
 inline constexpr const char* kCellsOfLevels =
-    "cells of levels";  ///< Isosurface: only cells that meet a level.
+    "cells of levels";                               ///< Isosurface: only cells that meet a level.
 inline constexpr const char* kReEntry = "re-entry";  ///< A ray may leave the mesh and come back.
 inline constexpr const char* kInterpolation = "interpolation";    ///< Values vary within a cell.
 inline constexpr const char* kColourByValue = "colour by value";  ///< Surface: C(f).
 inline constexpr const char* kHeadlight = "headlight";            ///< Surface: needs normals.
 
-// Voxels; kInterpolation: trilinear instead of nearest.
+// Voxels; kInterpolation: trilinear or tricubic instead of nearest.
 inline constexpr const char* kEmptyBricks =
     "empty bricks";  ///< Bricks without a share are skipped.
 inline constexpr const char* kStepEnlarged = "step enlarged";  ///< The step asked for is too small.

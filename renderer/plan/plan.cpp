@@ -62,6 +62,10 @@ bool varies(const FieldSummary* field) {
     return field != nullptr && field->association != data::Association::kCell;
 }
 
+/// How far tricubic values may leave the range of the voxels they come from, as a part of it:
+/// derived in shaders/volume/march_ray.glsl.
+constexpr float kTricubicOvershoot = 0.48F;
+
 /// Smallest and largest extinction on any ray.
 data::Range extinctionOf(const Matter& matter) {
     const bool own = !matter.maps.density.points.empty();
@@ -70,9 +74,13 @@ data::Range extinctionOf(const Matter& matter) {
     const scene::Scale scale =
         matter.second ? matter.second->scale : scene::mainField(matter.layer, matter.summary).scale;
     const scene::ScaleFunction function{scale, field->range};
-    return extinctionOver(
-        own ? matter.maps.density : matter.maps.main,
-        {.min = function.ofData(field->range.min), .max = function.ofData(field->range.max)});
+    data::Range range{.min = function.ofData(field->range.min),
+                      .max = function.ofData(field->range.max)};
+    if (!matter.summary.isMesh && matter.layer.sampling == scene::Sampling::kTricubic) {
+        const float overshoot = kTricubicOvershoot * (range.max - range.min);
+        range = {.min = range.min - overshoot, .max = range.max + overshoot};
+    }
+    return extinctionOver(own ? matter.maps.density : matter.maps.main, range);
 }
 
 bool absorbs(RayModel model) {
@@ -319,10 +327,11 @@ scene::Integrator methodOfSamples(RayModel model, bool continuous) {
 void planVoxels(LayerPlan& plan, const Matter& matter) {
     plan.evaluator = Evaluator::kVolumeMarch;
     plan.integrator = "march";
-    const bool trilinear = matter.layer.sampling == scene::Sampling::kTrilinear;
-    plan.method = methodOfSamples(matter.layer.model, trilinear);
-    add(plan, kInterpolation, trilinear,
-        trilinear ? "trilinear between grid points" : "the nearest grid point's value");
+    const bool interpolates = matter.layer.sampling != scene::Sampling::kNearest;
+    plan.method = methodOfSamples(matter.layer.model, interpolates);
+    add(plan, kInterpolation, interpolates,
+        interpolates ? std::string{scene::name(matter.layer.sampling)} + " between grid points"
+                     : "the nearest grid point's value");
     if (matter.layer.model == RayModel::kIsosurface) planHeadlight(plan, matter.layer);
     planStep(plan, matter);
     planBricks(plan, matter);

@@ -48,7 +48,11 @@ enum class MeshEvaluator {
 };
 
 /// How voxels are read between grid points.
-enum class Sampling { kNearest, kTrilinear };
+enum class Sampling {
+    kNearest,
+    kTrilinear,
+    kTricubic,  ///< Catmull-Rom: through the grid points, with continuous slopes.
+};
 
 /// Turns a field's values into those that rays interpolate and maps are linear in. It is applied
 /// to the stored values, to control points, levels and intervals alike; all of these stay in the

@@ -29,18 +29,17 @@ shading::Recipe marchRecipe(const MarchTraits& traits, std::vector<shading::Cons
     const scene::RayModelRow& row = scene::row(traits.model);
     const scene::IntegratorRow* integrator = scene::integratorRow(traits.model, traits.integrator);
     // Of an isosurface the interval has left out levels.
-    constants.insert(constants.end(),
-                     {{"kTrilinear", traits.sampling == scene::Sampling::kTrilinear},
-                      {"kFilterInHardware", traits.filterInHardware},
-                      {"kPieces", row.opaque},
-                      {"kSkipBricks", traits.skipsBricks},
-                      {"kEarlyStop", traits.earlyStop},
-                      {"kLit", traits.lit},
-                      {"kInterval", traits.interval && !row.opaque},
-                      {"kClipPlanes", traits.clipPlanes},
-                      {"kClipsAtStart", true},
-                      {"kBrickSize", data::Volume::kBrickSize},
-                      {"kMaxRaySamples", plan::kMaxRaySamples}});
+    constants.insert(constants.end(), {{"kSampling", static_cast<int>(traits.sampling)},
+                                       {"kFilterInHardware", traits.filterInHardware},
+                                       {"kPieces", row.opaque},
+                                       {"kSkipBricks", traits.skipsBricks},
+                                       {"kEarlyStop", traits.earlyStop},
+                                       {"kLit", traits.lit},
+                                       {"kInterval", traits.interval && !row.opaque},
+                                       {"kClipPlanes", traits.clipPlanes},
+                                       {"kClipsAtStart", true},
+                                       {"kBrickSize", data::Volume::kBrickSize},
+                                       {"kMaxRaySamples", plan::kMaxRaySamples}});
     return {.evaluator = row.opaque ? "volume/march_opaque.glsl" : "volume/march.glsl",
             .classify = "classify/transfer_function.glsl",
             .segment = integrator == nullptr ? "" : std::string{integrator->chunk},

@@ -113,14 +113,6 @@ Result<scene::Levels> levelsFrom(const v1::Levels& message, const string& path) 
     return levels;
 }
 
-Result<scene::Sampling> samplingFrom(v1::Sampling message, const string& field) {
-    switch (message) {
-        case v1::SAMPLING_TRILINEAR: return scene::Sampling::kTrilinear;
-        case v1::SAMPLING_NEAREST: return scene::Sampling::kNearest;
-        default: return unknownEnumerator(field, message);
-    }
-}
-
 /// Limits are checked before anything is copied.
 Result<data::TransferFunction> mapFrom(const v1::TransferFunction& message, const string& path) {
     const int count = message.points_size();
@@ -201,7 +193,7 @@ Result<scene::Layer> layerFrom(const v1::Layer& message, const string& path) {
     if (!integrator) return std::move(integrator).error();
     auto evaluator = oursFrom(kEvaluators, message.evaluator(), path + ".evaluator");
     if (!evaluator) return std::move(evaluator).error();
-    auto sampling = samplingFrom(message.sampling(), path + ".sampling");
+    auto sampling = oursFrom(kSamplings, message.sampling(), path + ".sampling");
     if (!sampling) return std::move(sampling).error();
     auto map = mapFrom(message.transfer_function(), path + ".transfer_function");
     if (!map) return std::move(map).error();

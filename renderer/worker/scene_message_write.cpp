@@ -96,8 +96,7 @@ void put(v1::Layer* message, const scene::Layer& layer) {
     putSelection(message, layer);
     putParameters(message, layer);
     message->set_step_world(layer.stepWorld);
-    message->set_sampling(layer.sampling == scene::Sampling::kNearest ? v1::SAMPLING_NEAREST
-                                                                      : v1::SAMPLING_TRILINEAR);
+    message->set_sampling(theirsFrom(kSamplings, layer.sampling));
 }
 
 }  // namespace

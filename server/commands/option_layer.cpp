@@ -119,7 +119,7 @@ Result<void> setEvaluation(scene::Layer& layer, const SceneOptions& options) {
                         scene::allowedIntegrators(layer.model) + " can");
     }
     layer.stepWorld = options.step;
-    if (options.sampling == "nearest") layer.sampling = scene::Sampling::kNearest;
+    if (!options.sampling.empty()) layer.sampling = *scene::samplingNamed(options.sampling);
     return {};
 }
 

@@ -157,8 +157,8 @@ void addModelOptions(Group group, SceneOptions& o) {
 void addEvaluation(Group group, SceneOptions& o) {
     group.add("--step", o.step, "Sampling distance in voxels' world units; 0: half a voxel")
         ->check(finite() & CLI::NonNegativeNumber);
-    group.add("--sampling", o.sampling, "trilinear or nearest")
-        ->check(CLI::IsMember({"trilinear", "nearest"}));
+    group.add("--sampling", o.sampling, "Between voxels: trilinear, tricubic or nearest")
+        ->check(CLI::IsMember({"trilinear", "tricubic", "nearest"}));
 }
 
 void addView(Group group, SceneOptions& o) {

@@ -49,18 +49,51 @@ float placeOf(int i) {
     return kPieces ? float(i) : float(i) + 0.5;
 }
 
+ivec3 lastBrick() {
+    return max((ivec3(layer.grid.xyz) - 2) / kBrickSize, ivec3(0));
+}
+
+vec2 rangeOf(ivec3 brick) {
+    return texelFetch(brickRanges, clamp(brick, ivec3(0), lastBrick()), 0).rg;
+}
+
+vec2 rangeOf(vec2 a, vec2 b, vec2 c) {
+    return vec2(min(a.x, min(b.x, c.x)), max(a.y, max(b.y, c.y)));
+}
+
+vec2 rowRange(ivec3 brick) {
+    ivec3 next = ivec3(1, 0, 0);
+    return rangeOf(rangeOf(brick - next), rangeOf(brick), rangeOf(brick + next));
+}
+
+vec2 planeRange(ivec3 brick) {
+    ivec3 next = ivec3(0, 1, 0);
+    return rangeOf(rowRange(brick - next), rowRange(brick), rowRange(brick + next));
+}
+
+// What tricubic values in a brick are within. They are sums over voxels that reach into the
+// bricks around. Along an axis the weights below 0 add up to -t (1 - t) / 2, so that all their sizes
+// do to 1 + t (1 - t) <= 5/4; along three to 125/64. All weights add up to 1: those below 0 to -N and
+// those above to 1 + N with 1 + 2 N <= 125/64, N <= 61/128. Values are then between
+// low - N (high - low) and high + N (high - low); 0.48 is more than N by more than all rounding.
+vec2 tricubicRange(ivec3 brick) {
+    ivec3 next = ivec3(0, 0, 1);
+    vec2 range = rangeOf(planeRange(brick - next), planeRange(brick), planeRange(brick + next));
+    float overshoot = 0.48 * (range.y - range.x);
+    return range + vec2(-overshoot, overshoot);
+}
+
 // The brick of step `i`: its range, and the first step beyond it.
 vec2 brickAt(March march, int i, out int beyond) {
-    ivec3 lastBrick = max((ivec3(layer.grid.xyz) - 2) / kBrickSize, ivec3(0));
     vec3 position = positionAt(march, distanceOf(march, placeOf(i)));
-    ivec3 brick = clamp(ivec3(floor(position)) / kBrickSize, ivec3(0), lastBrick);
+    ivec3 brick = clamp(ivec3(floor(position)) / kBrickSize, ivec3(0), lastBrick());
     vec3 ahead = vec3(greaterThan(march.direction, vec3(0.0)));
     vec3 wall = (vec3(brick) + ahead) * float(kBrickSize) - march.origin;
     vec3 way = mix(wall / march.direction, vec3(3.0e38), equal(march.direction, vec3(0.0)));
     float leave = min(way.x, min(way.y, way.z));
     float index = (leave - march.begin) / march.dt - placeOf(0);
     beyond = min(max(int(min(index, float(march.steps))) + 1, i + 1), march.steps);
-    return texelFetch(brickRanges, brick, 0).rg;
+    return kSampling == kTricubic ? tricubicRange(brick) : rangeOf(brick);
 }
 
 bool skipsRange(RayState state, vec2 range) {

@@ -14,7 +14,7 @@ inline volume::MarchTraits marchTraits(const scene::RayModelRow& row, int varian
     const bool first = bit(0) != bit(2);
     return {.model = row.model,
             .integrator = (first ? row.integrators.front() : row.integrators.back()).integrator,
-            .sampling = bit(0) ? scene::Sampling::kTrilinear : scene::Sampling::kNearest,
+            .sampling = static_cast<scene::Sampling>(variant % 3),
             .filterInHardware = bit(3),
             .skipsBricks = bit(1),
             .earlyStop = bit(2),

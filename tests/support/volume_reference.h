@@ -64,6 +64,7 @@ public:
         const glm::dvec3 last = glm::dvec3(volume_.size) - 1.0;
         const glm::dvec3 at = glm::clamp(gridFrom(world), glm::dvec3(0.0), last);
         if (sampling_ == scene::Sampling::kNearest) return voxel(glm::ivec3(at + 0.5));
+        if (sampling_ == scene::Sampling::kTricubic) return tricubic(at);
         const glm::ivec3 low = glm::min(glm::ivec3(at), glm::max(volume_.size - 2, 0));
         const glm::dvec3 t = at - glm::dvec3(low);
         double sum = 0.0;
@@ -125,6 +126,23 @@ public:
     }
 
 private:
+    /// Cubic convolution with a = -1/2, by its kernel as a function of the distance.
+    [[nodiscard]] double tricubic(const glm::dvec3& at) const {
+        const auto kernel = [](double x) {
+            x = std::abs(x);
+            if (x < 1.0) return 1.5 * x * x * x - 2.5 * x * x + 1.0;
+            return x < 2.0 ? -0.5 * x * x * x + 2.5 * x * x - 4.0 * x + 2.0 : 0.0;
+        };
+        const glm::ivec3 first = glm::ivec3(glm::floor(at)) - 1;
+        double sum = 0.0;
+        for (int point = 0; point < 64; ++point) {
+            const glm::ivec3 i = first + glm::ivec3{point & 3, point >> 2 & 3, point >> 4};
+            const glm::dvec3 off = at - glm::dvec3(i);
+            sum += kernel(off.x) * kernel(off.y) * kernel(off.z) *
+                   voxel(glm::clamp(i, glm::ivec3(0), volume_.size - 1));
+        }
+        return sum;
+    }
     [[nodiscard]] glm::dvec3 gridFrom(const glm::dvec3& world) const {
         return glm::transpose(volume_.direction) * (world - volume_.origin) / volume_.spacing;
     }

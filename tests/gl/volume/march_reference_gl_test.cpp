@@ -4,6 +4,11 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "renderer/plan/effects.h"
 #include "renderer/scene/ray_models.h"
@@ -80,6 +85,18 @@ protected:
         EXPECT_LT(worst, tolerance);
     }
 
+    static std::unique_ptr<scene::Renderer> rendererWithoutSkipping() {
+        return support::must(scene::Renderer::create(
+            device(), [](std::string_view path) -> std::optional<std::string> {
+                auto text = shading::embeddedChunks()(path);
+                const std::string condition = "if (!kSkipBricks)";
+                if (const auto at = text->find(condition); at != std::string::npos) {
+                    text->replace(at, condition.size(), "if (true)");
+                }
+                return text;
+            }));
+    }
+
     /// C and rho of all values, added up.
     [[nodiscard]] glm::dvec4 sumOf(const std::vector<double>& values) const {
         glm::dvec4 sum{0.0};
@@ -122,6 +139,15 @@ protected:
 
 TEST_F(MarchReference, EmissionAndAbsorptionTrilinear) {
     scene_.layers[0].stepWorld = 0.11;
+    for (const auto projection : {Projection::kPerspective, Projection::kOrthographic}) {
+        scene_.camera.projection = projection;
+        expectComposite({45, 33}, 2e-4);
+    }
+}
+
+TEST_F(MarchReference, EmissionAndAbsorptionTricubic) {
+    scene_.layers[0].stepWorld = 0.11;
+    scene_.layers[0].sampling = Sampling::kTricubic;
     for (const auto projection : {Projection::kPerspective, Projection::kOrthographic}) {
         scene_.camera.projection = projection;
         expectComposite({45, 33}, 2e-4);
@@ -255,31 +281,64 @@ TEST_F(MarchReference, SkippingEmptyBricksChangesNothing) {
 }
 
 TEST_F(MarchReference, SkippingBricksChangesNoModel) {
-    const auto withoutSkipping = support::must(
-        scene::Renderer::create(device(), [](std::string_view path) -> std::optional<std::string> {
-            auto text = shading::embeddedChunks()(path);
-            const std::string condition = "if (!kSkipBricks)";
-            if (const auto at = text->find(condition); at != std::string::npos) {
-                text->replace(at, condition.size(), "if (true)");
-            }
-            return text;
-        }));
+    const auto withoutSkipping = rendererWithoutSkipping();
     withoutSkipping->addDataset("volume", volume_);
     scene_.layers[0].levels.values = {20.0F, 45.0F, 70.0F};
     int skipping = 0;
     for (const scene::RayModelRow& row : scene::rayModels()) {
         if (!row.onVolumes) continue;
-        for (const bool interval : {false, true}) {
+        for (int variant = 0; variant < 6; ++variant) {
+            const bool interval = variant % 2 == 1;
             scene_.layers[0].model = row.model;
+            scene_.layers[0].sampling = static_cast<Sampling>(variant / 2);
             scene_.layers[0].interval.reset();
             if (interval) scene_.layers[0].interval = data::Range{.min = 15.0F, .max = 60.0F};
             const auto skipped = draw(scene_, {64, 48});
             const auto full = support::must(tryDraw(*withoutSkipping, scene_, {64, 48}));
             skipping += skipped.info.plan.layers[0].has(plan::kEmptyBricks) ? 1 : 0;
-            EXPECT_EQ(skipped.linear, full.linear) << row.name << ' ' << interval;
+            EXPECT_EQ(skipped.linear, full.linear) << row.name << ' ' << variant;
         }
     }
-    EXPECT_EQ(skipping, 12) << "all but mip_colour and splat of all values";
+    EXPECT_EQ(skipping, 3 * 12) << "all but mip_colour and splat of all values";
+}
+
+// Beside a single voxel of 100 tricubic values are below 0, and between two above 100: what only
+// such values show must not be passed over with their bricks, whose voxels show nothing.
+TEST_F(MarchReference, SkippingBricksSeesTheOvershootOfTricubicValues) {
+    const auto withoutSkipping = rendererWithoutSkipping();
+    const data::Volume spikes = support::volumeOf({.size = {50, 50, 50}}, [](const glm::dvec3& p) {
+        const glm::ivec3 i{p};
+        const bool plate = i.x < 25 && (i.z == 24 || i.z == 25);
+        const bool spike = (i.x * 7 + i.y * 11 + i.z * 13) % 53 < 2 && i.z > 15 && i.z < 34;
+        return plate || spike ? 100.0 : 0.0;
+    });
+    renderer_->addDataset("spikes", spikes);
+    withoutSkipping->addDataset("spikes", spikes);
+    scene::Layer& layer = scene_.layers[0];
+    layer.dataset = "spikes";
+    layer.sampling = Sampling::kTricubic;
+    layer.stepWorld = 0.31;
+    layer.headlight = false;
+    layer.levels.values = {-4.0F};
+    scene_.camera.eye = {80, 60, 90};
+    scene_.camera.center = {24, 24, 24};
+    const data::TransferFunction below{{{.value = -3.0F, .colour = {1, 1, 1}, .extinction = 1.0F},
+                                        {.value = -1.0F, .colour = {1, 1, 1}, .extinction = 0.0F}}};
+    const data::TransferFunction above{
+        {{.value = 101.0F, .colour = {1, 1, 1}, .extinction = 0.0F},
+         {.value = 103.0F, .colour = {1, 1, 1}, .extinction = 1.0F}}};
+    for (const RayModel model : {RayModel::kVolume, RayModel::kXray, RayModel::kMip,
+                                 RayModel::kMinip, RayModel::kIsosurface}) {
+        for (const data::TransferFunction& map : {below, above}) {
+            layer.model = model;
+            layer.map = map;
+            const auto skipped = draw(scene_, {64, 48});
+            const auto full = support::must(tryDraw(*withoutSkipping, scene_, {64, 48}));
+            EXPECT_EQ(skipped.linear, full.linear) << scene::name(model);
+            const bool shows = std::ranges::any_of(full.linear, [](float v) { return v > 0.01F; });
+            EXPECT_TRUE(shows) << scene::name(model) << ' ' << map.points[0].value;
+        }
+    }
 }
 
 // Interpolating in the shader, as is done where the texture unit keeps too few bits, gives the

@@ -100,6 +100,8 @@ TEST_F(Plan, SamplesOfVoxelsTakeTheCheapestWayThatIsRight) {
     EXPECT_EQ(planned().method, scene::Integrator::kFront);
     layer_.model = RayModel::kMipColour;
     EXPECT_EQ(planned().method, scene::Integrator::kExact);
+    layer_.sampling = scene::Sampling::kTricubic;
+    EXPECT_EQ(planned().method, scene::Integrator::kExact);
     layer_.sampling = scene::Sampling::kNearest;
     EXPECT_EQ(planned().method, scene::Integrator::kEnds);
 }
@@ -124,6 +126,16 @@ TEST_F(Plan, ATransparentMapDrawsNothing) {
         layer_.model = RayModel::kMip;  // Shows colours whatever the extinction.
         EXPECT_TRUE(planned().drawn);
     }
+}
+
+TEST_F(Plan, TricubicValuesMayLeaveTheRangeOfTheVoxels) {
+    layer_.map.points = {{.value = 24.0F, .extinction = 0.0F},
+                         {.value = 25.0F, .extinction = 100.0F}};
+    EXPECT_FALSE(planned().drawn);
+    layer_.sampling = scene::Sampling::kTricubic;  // Up to 20 + 0.48 * 10.
+    EXPECT_TRUE(planned().drawn);
+    layer_.map.points[0].value = 24.9F;
+    EXPECT_FALSE(planned().drawn);
 }
 
 TEST_F(Plan, AnExtinctionPeakBetweenTheRangesEndsIsSeen) {

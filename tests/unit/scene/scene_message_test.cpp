@@ -54,7 +54,7 @@ scene::Scene fullScene() {
                      .integrator = scene::Integrator::kPsi,
                      .evaluator = scene::MeshEvaluator::kProjection,
                      .stepWorld = 0.0,
-                     .sampling = scene::Sampling::kTrilinear},
+                     .sampling = scene::Sampling::kTricubic},
                     {.id = "b",
                      .dataset = "volume",
                      .field = {},
