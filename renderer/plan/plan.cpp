@@ -324,6 +324,14 @@ scene::Integrator methodOfSamples(RayModel model, bool continuous) {
     return model == RayModel::kMipColour && continuous ? scene::Integrator::kExact : cheapest;
 }
 
+void planLight(LayerPlan& plan, const Layer& volume) {
+    const bool lit = volume.light.has_value();
+    add(plan, kLight, lit,
+        !lit                     ? "matter emits its colour alone, so no gradient is needed"
+        : volume.light->position ? "lit from a point of the world"
+                                 : "lit from the eye");
+}
+
 void planVoxels(LayerPlan& plan, const Matter& matter) {
     plan.evaluator = Evaluator::kVolumeMarch;
     plan.integrator = "march";
@@ -333,6 +341,7 @@ void planVoxels(LayerPlan& plan, const Matter& matter) {
         interpolates ? std::string{scene::name(matter.layer.sampling)} + " between grid points"
                      : "the nearest grid point's value");
     if (matter.layer.model == RayModel::kIsosurface) planHeadlight(plan, matter.layer);
+    if (matter.layer.model == RayModel::kVolume) planLight(plan, matter.layer);
     planStep(plan, matter);
     planBricks(plan, matter);
     planEarlyStop(plan, matter);

@@ -58,6 +58,24 @@ Result<void> validateChoices(const Layer& layer, const std::string& path) {
     return {};
 }
 
+Result<void> validate(const Light& light, const std::string& path) {
+    const auto least = [&path](const char* name, float value, bool valid, const char* wanted) {
+        return valid && std::isfinite(value)
+                   ? Result<void>{}
+                   : invalid(path + "." + name, std::to_string(value) + " is not " + wanted);
+    };
+    constexpr const char* kFromZero = "a number of 0 or more";
+    Result<void> valid = least("ambient", light.ambient, light.ambient >= 0.0F, kFromZero);
+    if (valid) valid = least("diffuse", light.diffuse, light.diffuse >= 0.0F, kFromZero);
+    if (valid) valid = least("specular", light.specular, light.specular >= 0.0F, kFromZero);
+    if (valid) valid = least("exponent", light.exponent, light.exponent > 0.0F, "a number above 0");
+    if (!valid || !light.position) return valid;
+    const glm::dvec3& position = *light.position;
+    const bool finite =
+        std::isfinite(position.x) && std::isfinite(position.y) && std::isfinite(position.z);
+    return finite ? Result<void>{} : invalid(path + ".position", "is not finite");
+}
+
 Result<void> validateNumbers(const Layer& layer, const std::string& path) {
     if (!(layer.edgeWidth > 0.0F && layer.edgeWidth <= 64.0F)) {
         return invalid(path + ".edge_width",
@@ -82,6 +100,9 @@ Result<void> validateNumbers(const Layer& layer, const std::string& path) {
     if (!layer.markers.field.empty() && layer.markers.values.empty()) {
         return invalid(path + ".markers.values",
                        "no value is listed, so that no cell would be drawn");
+    }
+    if (layer.light) {
+        if (auto valid = validate(*layer.light, path + ".light"); !valid) return valid;
     }
     if (layer.model == RayModel::kIsosurface) return validate(layer.levels, path + ".levels");
     return {};

@@ -19,6 +19,7 @@ MarchTraits traitsOf(const DrawInputs& inputs) {
             .skipsBricks = inputs.plan->has(plan::kEmptyBricks),
             .earlyStop = inputs.plan->has(plan::kEarlyStop),
             .lit = inputs.plan->has(plan::kGradient),
+            .shaded = inputs.plan->has(plan::kLight),
             .interval = inputs.plan->has(plan::kInterval),
             .clipPlanes = inputs.clipPlanes};
 }
@@ -35,14 +36,17 @@ shading::Recipe marchRecipe(const MarchTraits& traits, std::vector<shading::Cons
                                        {"kSkipBricks", traits.skipsBricks},
                                        {"kEarlyStop", traits.earlyStop},
                                        {"kLit", traits.lit},
+                                       {"kShaded", traits.shaded},
                                        {"kInterval", traits.interval && !row.opaque},
                                        {"kClipPlanes", traits.clipPlanes},
                                        {"kClipsAtStart", true},
                                        {"kBrickSize", data::Volume::kBrickSize},
                                        {"kMaxRaySamples", plan::kMaxRaySamples}});
+    std::string segment{integrator == nullptr ? "" : integrator->chunk};
+    if (traits.shaded) segment = "segment/average_lit.glsl";
     return {.evaluator = row.opaque ? "volume/march_opaque.glsl" : "volume/march.glsl",
             .classify = "classify/transfer_function.glsl",
-            .segment = integrator == nullptr ? "" : std::string{integrator->chunk},
+            .segment = std::move(segment),
             .model = std::string{row.chunk},
             .constants = std::move(constants)};
 }

@@ -60,7 +60,8 @@ struct MarchTraits {
     bool filterInHardware = false;
     bool skipsBricks = false;
     bool earlyStop = false;
-    bool lit = false;
+    bool lit = false;     ///< Isosurfaces, at their hits.
+    bool shaded = false;  ///< Volumes, at their samples.
     bool interval = false;
     int clipPlanes = 0;
 };

@@ -8,9 +8,10 @@
 // is on different sides at both ends of what is left. A line through these ends gives the hit. A
 // field that crosses a level and comes back within one step is not seen to do so.
 // Constants: kPieces, kSkipBricks, kEarlyStop, kMaxRaySamples, kBrickSize; kInterval: only values
-// in an interval count; kLit; those of lib/window.glsl and volume/voxels.glsl.
+// in an interval count; kLit: levels are lit from the eye; kShaded: samples are by layer.light; those of lib/window.glsl and volume/voxels.glsl.
 // Uses: classify through the model; segment through the model.
 #include "lib/box.glsl"
+#include "lib/light.glsl"
 #include "lib/window.glsl"
 #include "volume/voxels.glsl"
 
@@ -103,10 +104,15 @@ bool skipsRange(RayState state, vec2 range) {
 
 // Takes step `i`; `value` is that of the step before, then that of this one. True: nothing behind
 // can show.
-bool takeStep(inout RayState state, inout float value, March march, int i) {
+bool takeStep(inout RayState state, inout float value, Ray ray, March march, int i) {
     float front = value;
-    value = valueAfter(march, kPieces ? float(i + 1) : placeOf(i));
+    float at = distanceOf(march, kPieces ? float(i + 1) : placeOf(i));
+    value = valueAt(positionAt(march, at));
     if (kInterval && (value < layer.gather.z || value > layer.gather.w)) return false;
+    if (kShaded && matterAt(value, value).a > 0.0) {
+        pieceLight = lightOn(normalAt(positionAt(march, at)), ray.origin + at * ray.direction,
+                             -ray.direction);
+    }
     Segment piece = sampledPiece(kPieces ? front : value, value, march.dt, distanceOf(march, float(i)));
     return stepRay(state, piece) && kEarlyStop;
 }
@@ -138,7 +144,7 @@ RayState marched(Ray ray, March march) {
     bool finished = false;
     int i = 0;
     if (!kSkipBricks) {
-        for (; i < march.steps && !finished; ++i) finished = takeStep(state, value, march, i);
+        for (; i < march.steps && !finished; ++i) finished = takeStep(state, value, ray, march, i);
     }
     while (i < march.steps && !finished) {
         int beyond;
@@ -148,7 +154,7 @@ RayState marched(Ray ray, March march) {
             i = kPieces ? beyond - 1 : beyond;
             if (kPieces) value = valueAfter(march, float(i));
         }
-        for (; i < beyond && !finished; ++i) finished = takeStep(state, value, march, i);
+        for (; i < beyond && !finished; ++i) finished = takeStep(state, value, ray, march, i);
     }
     if (kPieces && finished) narrow(state, march, i - 1, value);
     return state;

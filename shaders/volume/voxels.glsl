@@ -1,6 +1,7 @@
 // The field of a channel between its grid points, in grid coordinates.
 // Constants: kSampling, kFilterInHardware (trilinear by the texture unit).
 #include "lib/layer.glsl"
+#include "lib/unit.glsl"
 
 layout(binding = kVoxelUnit) uniform sampler3D voxels;
 
@@ -80,11 +81,6 @@ float valueAt(vec3 at) {
                              : trilinear(at);
 }
 
-// Of any length but 0, without overflow.
-vec3 scaled(vec3 v) {
-    return v / max(max(abs(v.x), abs(v.y)), max(abs(v.z), 1.0e-37));
-}
-
 // The direction in which the field rises most, of length 1 in the world; 0 where it is flat. By
 // central differences over a grid interval to each side; at a face of the box one side is shorter.
 vec3 normalAt(vec3 at) {
@@ -96,6 +92,5 @@ vec3 normalAt(vec3 at) {
                       valueAt(vec3(at.xy, low.z)));
     // Quarters, because the difference of two large values may not be a number.
     vec3 slope = (0.25 * above - 0.25 * below) / max(high - low, vec3(0.5));
-    vec3 normal = scaled(transpose(mat3(layer.gridFromData)) * scaled(slope));
-    return normal == vec3(0.0) ? normal : normalize(normal);
+    return unit(transpose(mat3(layer.gridFromData)) * unit(slope));
 }

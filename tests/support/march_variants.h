@@ -19,6 +19,7 @@ inline volume::MarchTraits marchTraits(const scene::RayModelRow& row, int varian
             .skipsBricks = bit(1),
             .earlyStop = bit(2),
             .lit = bit(4) && row.model == scene::RayModel::kIsosurface,
+            .shaded = bit(2) && row.model == scene::RayModel::kVolume,
             .interval = bit(4) != bit(1),
             .clipPlanes = bit(3) != bit(2) ? 2 : 0};
 }

@@ -115,6 +115,18 @@ TEST_F(Plan, AnIsosurfaceOfVoxelsNeedsAGradientOnlyWhereItIsLit) {
     EXPECT_TRUE(lists(planned(), kGradient));
 }
 
+TEST_F(Plan, AVolumeOfVoxelsIsLitOnlyWhereItHasALight) {
+    EXPECT_FALSE(planned().has(kLight));
+    EXPECT_TRUE(lists(planned(), kLight));
+    layer_.light = scene::Light{};
+    EXPECT_TRUE(planned().has(kLight));
+    layer_.model = RayModel::kMip;
+    EXPECT_FALSE(planned().has(kLight));
+    layer_.model = RayModel::kVolume;
+    layer_.dataset = "mesh";
+    EXPECT_FALSE(planned().has(kLight));
+}
+
 TEST_F(Plan, ATransparentMapDrawsNothing) {
     layer_.map.points[1].value = 1000.0F;
     layer_.map.points[0].value = 20.5F;

@@ -89,6 +89,19 @@ TEST(ValidateScene, NamesTheFieldAtFault) {
               (Refusal{invalid, "layers[0].step_world"}));
     EXPECT_EQ(refused([](Scene& s) { s.layers[0].surfaceColour.b = kNan; }),
               (Refusal{invalid, "layers[0].surface_colour"}));
+    const auto refusedLight = [&](auto edit) {
+        return refused([&](Scene& s) { edit(s.layers[0].light.emplace()); });
+    };
+    EXPECT_EQ(refusedLight([](Light& l) { l.ambient = -0.1F; }),
+              (Refusal{invalid, "layers[0].light.ambient"}));
+    EXPECT_EQ(refusedLight([](Light& l) { l.diffuse = kNan; }),
+              (Refusal{invalid, "layers[0].light.diffuse"}));
+    EXPECT_EQ(refusedLight([](Light& l) { l.specular = std::numeric_limits<float>::infinity(); }),
+              (Refusal{invalid, "layers[0].light.specular"}));
+    EXPECT_EQ(refusedLight([](Light& l) { l.exponent = 0.0F; }),
+              (Refusal{invalid, "layers[0].light.exponent"}));
+    EXPECT_EQ(refusedLight([](Light& l) { l.position = glm::dvec3(0, kNan, 0); }),
+              (Refusal{invalid, "layers[0].light.position"}));
     EXPECT_EQ(refused([](Scene& s) { s.layers[0].timeStep = -1; }),
               (Refusal{invalid, "layers[0].time_step"}));
     EXPECT_EQ(refused([](Scene& s) { s.layers[0].map.points.clear(); }),
