@@ -32,9 +32,10 @@ inline constexpr const char* kInterpolation = "interpolation";    ///< Values va
 inline constexpr const char* kColourByValue = "colour by value";  ///< Surface: C(f).
 inline constexpr const char* kHeadlight = "headlight";            ///< Surface: needs normals.
 
-// Voxels; kInterpolation: trilinear instead of nearest.
+// Voxels; kInterpolation: trilinear or tricubic instead of nearest.
 inline constexpr const char* kEmptyBricks =
-    "empty bricks";  ///< Bricks without a share are skipped.
+    "empty bricks";                             ///< Bricks without a share are skipped.
+inline constexpr const char* kLight = "light";  ///< Volume: needs the field's slope at samples.
 inline constexpr const char* kStepEnlarged = "step enlarged";  ///< The step asked for is too small.
 
 }  // namespace volcast::plan

@@ -62,6 +62,10 @@ bool varies(const FieldSummary* field) {
     return field != nullptr && field->association != data::Association::kCell;
 }
 
+/// How far tricubic values may leave the range of the voxels they come from, as a part of it:
+/// derived in shaders/volume/march_ray.glsl.
+constexpr float kTricubicOvershoot = 0.48F;
+
 /// Smallest and largest extinction on any ray.
 data::Range extinctionOf(const Matter& matter) {
     const bool own = !matter.maps.density.points.empty();
@@ -70,9 +74,13 @@ data::Range extinctionOf(const Matter& matter) {
     const scene::Scale scale =
         matter.second ? matter.second->scale : scene::mainField(matter.layer, matter.summary).scale;
     const scene::ScaleFunction function{scale, field->range};
-    return extinctionOver(
-        own ? matter.maps.density : matter.maps.main,
-        {.min = function.ofData(field->range.min), .max = function.ofData(field->range.max)});
+    data::Range range{.min = function.ofData(field->range.min),
+                      .max = function.ofData(field->range.max)};
+    if (!matter.summary.isMesh && matter.layer.sampling == scene::Sampling::kTricubic) {
+        const float overshoot = kTricubicOvershoot * (range.max - range.min);
+        range = {.min = range.min - overshoot, .max = range.max + overshoot};
+    }
+    return extinctionOver(own ? matter.maps.density : matter.maps.main, range);
 }
 
 bool absorbs(RayModel model) {
@@ -224,6 +232,11 @@ void planMethod(LayerPlan& plan, const Matter& matter, const scene::Accuracy& wi
         uniform ? "the map has one colour: opacity alone is gathered" : "the map has colours");
 }
 
+void planHeadlight(LayerPlan& plan, const Layer& isosurface) {
+    add(plan, kGradient, isosurface.headlight,
+        isosurface.headlight ? "lit from the eye" : "unlit, so no gradient is needed");
+}
+
 void planMeshRays(LayerPlan& plan, const Matter& matter, const scene::Accuracy& wish,
                   std::span<const Evidence> evidence) {
     plan.evaluator = evaluatorFor(matter.layer);
@@ -248,10 +261,7 @@ void planMeshRays(LayerPlan& plan, const Matter& matter, const scene::Accuracy& 
         add(plan, kVisibilityOrder, ordered,
             ordered ? "cells are blended front to back" : "the order of cells makes no difference");
     }
-    if (levels) {
-        add(plan, kGradient, matter.layer.headlight,
-            matter.layer.headlight ? "lit from the eye" : "unlit, so no gradient is needed");
-    }
+    if (levels) planHeadlight(plan, matter.layer);
     planEarlyStop(plan, matter);
 }
 
@@ -285,14 +295,28 @@ void planStep(LayerPlan& plan, const Matter& matter) {
             : "the step is as asked for");
 }
 
+/// Why bricks can be passed over whatever the map; empty where they cannot.
+std::string reasonToPassOver(RayModel model) {
+    switch (model) {
+        case RayModel::kMip: return "a brick that cannot raise the maximum is passed over";
+        case RayModel::kMinip: return "a brick that cannot lower the minimum is passed over";
+        case RayModel::kIsosurface: return "a brick between two levels is passed over";
+        default: return {};
+    }
+}
+
 void planBricks(LayerPlan& plan, const Matter& matter) {
     const glm::ivec3 intervals = matter.summary.voxels - 1;
     const bool several =
         std::max({intervals.x, intervals.y, intervals.z}) > data::Volume::kBrickSize;
     if (!several) {
         add(plan, kEmptyBricks, false, "the volume is a single brick");
-    } else if (matter.layer.model == RayModel::kMip) {
-        add(plan, kEmptyBricks, true, "a brick that cannot raise the maximum is passed over");
+    } else if (matter.layer.interval && matter.layer.model != RayModel::kIsosurface) {
+        add(plan, kEmptyBricks, true, "a brick without values in the interval is passed over");
+    } else if (!absorbs(matter.layer.model)) {
+        const std::string reason = reasonToPassOver(matter.layer.model);
+        add(plan, kEmptyBricks, !reason.empty(),
+            reason.empty() ? "every value of a brick may add to the ray" : reason);
     } else if (matter.extinction.min > 0.0F) {
         add(plan, kEmptyBricks, false, "the map has extinction everywhere in the data's range");
     } else {
@@ -300,12 +324,31 @@ void planBricks(LayerPlan& plan, const Matter& matter) {
     }
 }
 
+/// What the model does with samples: a sample's piece is constant, so that cheap ways are right.
+scene::Integrator methodOfSamples(RayModel model, bool continuous) {
+    const scene::Integrator cheapest = scene::row(model).integrators.front().integrator;
+    // A field that is continuous has every value between those of its samples.
+    return model == RayModel::kMipColour && continuous ? scene::Integrator::kExact : cheapest;
+}
+
+void planLight(LayerPlan& plan, const Layer& volume) {
+    const bool lit = volume.light.has_value();
+    add(plan, kLight, lit,
+        !lit                     ? "matter emits its colour alone, so no gradient is needed"
+        : volume.light->position ? "lit from a point of the world"
+                                 : "lit from the eye");
+}
+
 void planVoxels(LayerPlan& plan, const Matter& matter) {
     plan.evaluator = Evaluator::kVolumeMarch;
     plan.integrator = "march";
-    const bool trilinear = matter.layer.sampling == scene::Sampling::kTrilinear;
-    add(plan, kInterpolation, trilinear,
-        trilinear ? "trilinear between grid points" : "the nearest grid point's value");
+    const bool interpolates = matter.layer.sampling != scene::Sampling::kNearest;
+    plan.method = methodOfSamples(matter.layer.model, interpolates);
+    add(plan, kInterpolation, interpolates,
+        interpolates ? std::string{scene::name(matter.layer.sampling)} + " between grid points"
+                     : "the nearest grid point's value");
+    if (matter.layer.model == RayModel::kIsosurface) planHeadlight(plan, matter.layer);
+    if (matter.layer.model == RayModel::kVolume) planLight(plan, matter.layer);
     planStep(plan, matter);
     planBricks(plan, matter);
     planEarlyStop(plan, matter);

@@ -28,7 +28,7 @@ struct Effect {
 struct LayerPlan {
     std::string layer;
     Evaluator evaluator = Evaluator::kMeshWalk;
-    scene::Integrator method = scene::Integrator::kExact;  ///< Meshes; never kAuto.
+    scene::Integrator method = scene::Integrator::kExact;  ///< Never kAuto.
     std::string integrator;  ///< As in the frame header: "average", "march", or empty.
     double stepWorld = 0.0;  ///< Voxels: the longest distance between samples, world units.
     std::vector<Effect> effects;

@@ -124,6 +124,9 @@ LayerBlock layerBlock(PictureSize size, const DepthRange& depths, const Scene& s
         const glm::dvec3 normal = plane.normal / length;
         block.clipPlanes[i] = vector(normal, plane.offset / length - glm::dot(normal, origin));
     }
+    const Light light = layer.light.value_or(Light{});
+    block.light = light.position ? vector(*light.position - origin, 1.0) : glm::vec4(0.0F);
+    block.reflection = {light.ambient, light.diffuse, light.specular, light.exponent};
     return block;
 }
 

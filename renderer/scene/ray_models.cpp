@@ -35,15 +35,15 @@ constexpr std::array kRayModels{
     RayModelRow{RayModel::kMip, "mip", "model/mip.glsl", false, Combine::kMax, false, true, true,
                 kNoChoice},
     RayModelRow{RayModel::kMinip, "minip", "model/minip.glsl", false, Combine::kMin, false, true,
-                false, kNoChoice},
+                true, kNoChoice},
     RayModelRow{RayModel::kMipColour, "mip_colour", "model/mip_colour.glsl", false, Combine::kMax,
-                false, true, false, kExtremeIntegrators},
-    RayModelRow{RayModel::kXray, "xray", "model/xray.glsl", false, Combine::kSum, true, true, false,
+                false, true, true, kExtremeIntegrators},
+    RayModelRow{RayModel::kXray, "xray", "model/xray.glsl", false, Combine::kSum, true, true, true,
                 kLineIntegrators},
     RayModelRow{RayModel::kSplat, "splat", "model/splat.glsl", false, Combine::kSum, false, true,
-                false, kLineIntegrators},
+                true, kLineIntegrators},
     RayModelRow{RayModel::kIsosurface, "isosurface", "model/isosurface.glsl", true,
-                Combine::kNearest, true, true, false, kNoChoice},
+                Combine::kNearest, true, true, true, kNoChoice},
     RayModelRow{RayModel::kVolume, "volume", "model/volume.glsl", false, Combine::kUnder, true,
                 true, true, kVolumeIntegrators}};
 
@@ -55,6 +55,8 @@ constexpr std::array kEvaluators{
     EvaluatorName{MeshEvaluator::kAuto, "auto"}, EvaluatorName{MeshEvaluator::kWalk, "walk"},
     EvaluatorName{MeshEvaluator::kProjection, "projection"},
     EvaluatorName{MeshEvaluator::kProjectionFaces, "projection_faces"}};
+
+constexpr std::array<std::string_view, 3> kSamplings{"nearest", "trilinear", "tricubic"};
 
 constexpr std::array kAllIntegrators{std::span<const IntegratorRow>{kVolumeIntegrators},
                                      std::span<const IntegratorRow>{kLineIntegrators}};
@@ -87,6 +89,10 @@ std::string_view name(MeshEvaluator evaluator) {
     return std::ranges::find(kEvaluators, evaluator, &EvaluatorName::evaluator)->name;
 }
 
+std::string_view name(Sampling sampling) {
+    return kSamplings.at(static_cast<std::size_t>(sampling));
+}
+
 std::optional<RayModel> rayModelNamed(std::string_view name) {
     const auto found = std::ranges::find(kRayModels, name, &RayModelRow::name);
     if (found == kRayModels.end()) return std::nullopt;
@@ -106,6 +112,12 @@ std::optional<MeshEvaluator> evaluatorNamed(std::string_view name) {
     const auto found = std::ranges::find(kEvaluators, name, &EvaluatorName::name);
     if (found == kEvaluators.end()) return std::nullopt;
     return found->evaluator;
+}
+
+std::optional<Sampling> samplingNamed(std::string_view name) {
+    const auto found = std::ranges::find(kSamplings, name);
+    if (found == kSamplings.end()) return std::nullopt;
+    return static_cast<Sampling>(found - kSamplings.begin());
 }
 
 const IntegratorRow* integratorRow(RayModel model, Integrator integrator) {

@@ -51,10 +51,14 @@ std::string_view name(Integrator integrator);
 /// "auto", "walk", "projection", "projection_faces".
 std::string_view name(MeshEvaluator evaluator);
 
+/// "nearest", "trilinear", "tricubic".
+std::string_view name(Sampling sampling);
+
 /// Nothing for a name that is not known.
 std::optional<RayModel> rayModelNamed(std::string_view name);
 std::optional<Integrator> integratorNamed(std::string_view name);
 std::optional<MeshEvaluator> evaluatorNamed(std::string_view name);
+std::optional<Sampling> samplingNamed(std::string_view name);
 
 /// The row of `integrator` among those that serve `model`, or null.
 const IntegratorRow* integratorRow(RayModel model, Integrator integrator);

@@ -410,15 +410,19 @@ Result<void> DeviceRenderer::drawLayer(const Frame& frame, const LayerDraw& draw
     if (!isOpaque(draw) && draw.plan->has(plan::kEndsAtSurfaces)) {
         frame.picture->distance.bind(shading::shared::kOpaqueDistanceUnit);
     }
+    const gpu::Target* target =
+        isOpaque(draw) ? &frame.picture->opaquePass : &frame.picture->transparentPass;
+    const auto clipPlanes = static_cast<int>(frame.scene->clipPlanes.size());
     if (draw.channel != nullptr) {
         return volume::drawMarch({.device = &device_,
                                   .programs = &programs_,
                                   .channel = draw.channel,
+                                  .layer = draw.layer,
                                   .plan = draw.plan,
-                                  .model = draw.layer->model,
+                                  .clipPlanes = clipPlanes,
                                   .filterInHardware = filterInHardware_,
                                   .constants = draw.constants,
-                                  .target = &frame.picture->transparentPass});
+                                  .target = target});
     }
     if (draw.part->gpu == nullptr) return {};  // No cell is left to draw.
     const mesh::DrawInputs inputs{
@@ -435,11 +439,11 @@ Result<void> DeviceRenderer::drawLayer(const Frame& frame, const LayerDraw& draw
         .size = frame.size,
         .cameraVersion = frame.cameraVersion,
         .constants = draw.constants,
-        .clipPlanes = static_cast<int>(frame.scene->clipPlanes.size()),
+        .clipPlanes = clipPlanes,
         .levels = draw.levels,
         .countsSteps = frame.countsSteps,
         .psiTable = draw.plan->method == Integrator::kPsiTable ? &psiTable_ : nullptr,
-        .target = isOpaque(draw) ? &frame.picture->opaquePass : &frame.picture->transparentPass};
+        .target = target};
     if (draw.plan->evaluator == plan::Evaluator::kMeshRaster) return mesh::drawSurface(inputs);
     return isProjected(draw) ? mesh::drawProjection(inputs, *draw.state->projection)
                              : mesh::drawWalk(inputs, *draw.state->walk);

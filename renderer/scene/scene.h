@@ -48,7 +48,11 @@ enum class MeshEvaluator {
 };
 
 /// How voxels are read between grid points.
-enum class Sampling { kNearest, kTrilinear };
+enum class Sampling {
+    kNearest,
+    kTrilinear,
+    kTricubic,  ///< Catmull-Rom: through the grid points, with continuous slopes.
+};
 
 /// Turns a field's values into those that rays interpolate and maps are linear in. It is applied
 /// to the stored values, to control points, levels and intervals alike; all of these stay in the
@@ -86,6 +90,18 @@ struct CellMarkers {
     friend bool operator==(const CellMarkers&, const CellMarkers&) = default;
 };
 
+/// A point light on matter, which reflects it about the gradient of its field, on both sides alike:
+/// C (ambient + diffuse |n.l|) + specular |n.h|^exponent. Where the field is flat there is no
+/// highlight, and the rest is as if it faced the light.
+struct Light {
+    std::optional<glm::dvec3> position{};  ///< World; none: at the eye.
+    float ambient = 0.3F;                  ///< These three: >= 0.
+    float diffuse = 0.7F;
+    float specular = 0.2F;   ///< White.
+    float exponent = 32.0F;  ///< > 0.
+    friend bool operator==(const Light&, const Light&) = default;
+};
+
 /// One data model drawn with one ray model.
 struct Layer {
     std::string id;       ///< Unique in its scene; names the layer in diffs and errors.
@@ -121,6 +137,7 @@ struct Layer {
     // voxels
     double stepWorld = 0.0;  ///< World units; 0: half the smallest spacing.
     Sampling sampling = Sampling::kTrilinear;
+    std::optional<Light> light{};  ///< volume; none: matter emits its colour alone.
 
     friend bool operator==(const Layer&, const Layer&) = default;
 };

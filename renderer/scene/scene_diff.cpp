@@ -35,12 +35,14 @@ LayerDiff diff(const Layer* before, const Layer& after) {
     change.program = before->model != after.model || before->integrator != after.integrator ||
                      before->evaluator != after.evaluator || before->sampling != after.sampling ||
                      before->coloured != after.coloured || before->headlight != after.headlight ||
-                     before->interval.has_value() != after.interval.has_value();
-    change.uniforms =
-        before->surfaceColour != after.surfaceColour || before->stepWorld != after.stepWorld ||
-        before->interval != after.interval || before->edgeWidth != after.edgeWidth ||
-        before->edgeColour != after.edgeColour ||
-        before->extinctionScale != after.extinctionScale || before->exposure != after.exposure;
+                     before->interval.has_value() != after.interval.has_value() ||
+                     before->light.has_value() != after.light.has_value();
+    change.uniforms = before->surfaceColour != after.surfaceColour ||
+                      before->stepWorld != after.stepWorld || before->interval != after.interval ||
+                      before->edgeWidth != after.edgeWidth ||
+                      before->edgeColour != after.edgeColour ||
+                      before->extinctionScale != after.extinctionScale ||
+                      before->exposure != after.exposure || before->light != after.light;
     return change;
 }
 

@@ -58,6 +58,24 @@ Result<void> validateChoices(const Layer& layer, const std::string& path) {
     return {};
 }
 
+Result<void> validate(const Light& light, const std::string& path) {
+    const auto least = [&path](const char* name, float value, bool valid, const char* wanted) {
+        return valid && std::isfinite(value)
+                   ? Result<void>{}
+                   : invalid(path + "." + name, std::to_string(value) + " is not " + wanted);
+    };
+    constexpr const char* kFromZero = "a number of 0 or more";
+    Result<void> valid = least("ambient", light.ambient, light.ambient >= 0.0F, kFromZero);
+    if (valid) valid = least("diffuse", light.diffuse, light.diffuse >= 0.0F, kFromZero);
+    if (valid) valid = least("specular", light.specular, light.specular >= 0.0F, kFromZero);
+    if (valid) valid = least("exponent", light.exponent, light.exponent > 0.0F, "a number above 0");
+    if (!valid || !light.position) return valid;
+    const glm::dvec3& position = *light.position;
+    const bool finite =
+        std::isfinite(position.x) && std::isfinite(position.y) && std::isfinite(position.z);
+    return finite ? Result<void>{} : invalid(path + ".position", "is not finite");
+}
+
 Result<void> validateNumbers(const Layer& layer, const std::string& path) {
     if (!(layer.edgeWidth > 0.0F && layer.edgeWidth <= 64.0F)) {
         return invalid(path + ".edge_width",
@@ -82,6 +100,9 @@ Result<void> validateNumbers(const Layer& layer, const std::string& path) {
     if (!layer.markers.field.empty() && layer.markers.values.empty()) {
         return invalid(path + ".markers.values",
                        "no value is listed, so that no cell would be drawn");
+    }
+    if (layer.light) {
+        if (auto valid = validate(*layer.light, path + ".light"); !valid) return valid;
     }
     if (layer.model == RayModel::kIsosurface) return validate(layer.levels, path + ".levels");
     return {};
@@ -208,6 +229,29 @@ Result<void> validateMesh(const Layer& layer, const data::DatasetSummary& summar
     return validateScales(layer, *f, *g, path);
 }
 
+/// What voxels do not have yet.
+Result<void> validateVolume(const Layer& layer, const std::string& path) {
+    const auto unsupported = [](const std::string& field, const std::string& why) {
+        return fail(ErrorCode::kUnsupported, field + ": " + why, field);
+    };
+    if (!row(layer.model).onVolumes) {
+        return unsupported(path + ".model",
+                           std::string{name(layer.model)} +
+                               " draws the faces of a mesh; a volume of voxels has none");
+    }
+    if (!layer.densityField.empty()) {
+        return unsupported(path + ".density_field",
+                           "a volume is drawn by one channel, which gives colour and extinction");
+    }
+    if (layer.scale.kind != Scale::Kind::kLinear || layer.scale.domain) {
+        return unsupported(path + ".scale", "values of voxels are taken as they are");
+    }
+    if (!layer.markers.field.empty()) {
+        return unsupported(path + ".markers.field", "a volume of voxels has no cells to mark");
+    }
+    return {};
+}
+
 Result<void> validateField(const Layer& layer, const data::DatasetSummary& summary,
                            const std::string& path) {
     if (summary.fields.empty()) {
@@ -298,15 +342,10 @@ Result<void> validate(const Scene& scene, const Summaries& summaries) {
                         pathOf(i) + ".dataset: there is no dataset \"" + layer.dataset + "\"",
                         pathOf(i) + ".dataset");
         }
-        if (!found->second.isMesh && !row(layer.model).onVolumes) {
-            return fail(ErrorCode::kUnsupported,
-                        pathOf(i) + ".model: " + std::string{name(layer.model)} +
-                            " does not draw voxel volumes",
-                        pathOf(i) + ".model");
-        }
         Result<void> valid = validateField(layer, found->second, pathOf(i));
-        if (valid && found->second.isMesh) {
-            valid = validateMesh(layer, found->second, pathOf(i));
+        if (valid) {
+            valid = found->second.isMesh ? validateMesh(layer, found->second, pathOf(i))
+                                         : validateVolume(layer, pathOf(i));
         }
         if (!valid) return valid.error();
     }

@@ -9,27 +9,55 @@
 
 namespace volcast::volume {
 
-shading::Recipe marchRecipe(const plan::LayerPlan& plan, scene::RayModel model,
-                            bool filterInHardware, std::vector<shading::Constant> constants) {
-    const scene::RayModelRow& row = scene::row(model);
-    constants.insert(constants.end(), {{"kTrilinear", plan.has(plan::kInterpolation)},
-                                       {"kFilterInHardware", filterInHardware},
-                                       {"kSkipBricks", plan.has(plan::kEmptyBricks)},
-                                       {"kEarlyStop", plan.has(plan::kEarlyStop)},
+namespace {
+
+MarchTraits traitsOf(const DrawInputs& inputs) {
+    return {.model = inputs.layer->model,
+            .integrator = inputs.plan->method,
+            .sampling = inputs.layer->sampling,
+            .filterInHardware = inputs.filterInHardware,
+            .skipsBricks = inputs.plan->has(plan::kEmptyBricks),
+            .earlyStop = inputs.plan->has(plan::kEarlyStop),
+            .lit = inputs.plan->has(plan::kGradient),
+            .shaded = inputs.plan->has(plan::kLight),
+            .interval = inputs.plan->has(plan::kInterval),
+            .clipPlanes = inputs.clipPlanes};
+}
+
+}  // namespace
+
+shading::Recipe marchRecipe(const MarchTraits& traits, std::vector<shading::Constant> constants) {
+    const scene::RayModelRow& row = scene::row(traits.model);
+    const scene::IntegratorRow* integrator = scene::integratorRow(traits.model, traits.integrator);
+    // Of an isosurface the interval has left out levels.
+    constants.insert(constants.end(), {{"kSampling", static_cast<int>(traits.sampling)},
+                                       {"kFilterInHardware", traits.filterInHardware},
+                                       {"kPieces", row.opaque},
+                                       {"kSkipBricks", traits.skipsBricks},
+                                       {"kEarlyStop", traits.earlyStop},
+                                       {"kLit", traits.lit},
+                                       {"kShaded", traits.shaded},
+                                       {"kInterval", traits.interval && !row.opaque},
+                                       {"kClipPlanes", traits.clipPlanes},
+                                       {"kClipsAtStart", true},
                                        {"kBrickSize", data::Volume::kBrickSize},
                                        {"kMaxRaySamples", plan::kMaxRaySamples}});
-    return {.evaluator = "volume/march.glsl",
+    std::string segment{integrator == nullptr ? "" : integrator->chunk};
+    if (traits.shaded) segment = "segment/average_lit.glsl";
+    return {.evaluator = row.opaque ? "volume/march_opaque.glsl" : "volume/march.glsl",
             .classify = "classify/transfer_function.glsl",
-            .segment = model == scene::RayModel::kVolume ? "segment/average.glsl" : "",
+            .segment = std::move(segment),
             .model = std::string{row.chunk},
             .constants = std::move(constants)};
 }
 
 Result<void> drawMarch(const DrawInputs& inputs) {
-    const Result<const gpu::Program*> program = inputs.programs->ray(
-        marchRecipe(*inputs.plan, inputs.model, inputs.filterInHardware, inputs.constants));
+    const Result<const gpu::Program*> program =
+        inputs.programs->ray(marchRecipe(traitsOf(inputs), inputs.constants));
     if (!program) return program.error();
-    inputs.target->begin({.blend = gpu::Blend::kOver});
+    const bool opaque = scene::row(inputs.layer->model).opaque;
+    inputs.target->begin(opaque ? gpu::PassState{.depth = gpu::DepthTest::kNearest}
+                                : gpu::PassState{.blend = gpu::Blend::kOver});
     (*program)->use();
     inputs.channel->bind();
     inputs.device->draw(gpu::Primitive::kTriangles, 3);

@@ -37,22 +37,35 @@ struct DrawInputs {
     gpu::Device* device = nullptr;
     shading::ProgramCache* programs = nullptr;
     const ChannelGpu* channel = nullptr;
+    const scene::Layer* layer = nullptr;
     const plan::LayerPlan* plan = nullptr;
-    scene::RayModel model = scene::RayModel::kVolume;
+    int clipPlanes = 0;
     bool filterInHardware = false;  ///< Only where filtersExactly().
     /// Of lib/layer.glsl and of the classification.
     std::vector<shading::Constant> constants;
     const gpu::Target* target = nullptr;
 };
 
-/// Draws one layer over what is in the target. The layer block, the map and the opaque distances
-/// are bound by the caller.
+/// Draws one layer over what is in the target; one that is opaque where it is nearest. The layer
+/// block, the map and the opaque distances are bound by the caller.
 ///
 /// Errors: kShaderBuild.
 Result<void> drawMarch(const DrawInputs& inputs);
 
-/// The program of drawMarch().
-shading::Recipe marchRecipe(const plan::LayerPlan& plan, scene::RayModel model,
-                            bool filterInHardware, std::vector<shading::Constant> constants);
+/// What tells the programs of drawMarch() apart.
+struct MarchTraits {
+    scene::RayModel model = scene::RayModel::kVolume;
+    scene::Integrator integrator = scene::Integrator::kAverage;
+    scene::Sampling sampling = scene::Sampling::kTrilinear;
+    bool filterInHardware = false;
+    bool skipsBricks = false;
+    bool earlyStop = false;
+    bool lit = false;     ///< Isosurfaces, at their hits.
+    bool shaded = false;  ///< Volumes, at their samples.
+    bool interval = false;
+    int clipPlanes = 0;
+};
+
+shading::Recipe marchRecipe(const MarchTraits& traits, std::vector<shading::Constant> constants);
 
 }  // namespace volcast::volume

@@ -113,14 +113,6 @@ Result<scene::Levels> levelsFrom(const v1::Levels& message, const string& path) 
     return levels;
 }
 
-Result<scene::Sampling> samplingFrom(v1::Sampling message, const string& field) {
-    switch (message) {
-        case v1::SAMPLING_TRILINEAR: return scene::Sampling::kTrilinear;
-        case v1::SAMPLING_NEAREST: return scene::Sampling::kNearest;
-        default: return unknownEnumerator(field, message);
-    }
-}
-
 /// Limits are checked before anything is copied.
 Result<data::TransferFunction> mapFrom(const v1::TransferFunction& message, const string& path) {
     const int count = message.points_size();
@@ -169,12 +161,35 @@ Result<void> readSelection(const v1::Layer& message, const string& path, scene::
     return {};
 }
 
+Result<scene::Light> lightFrom(const v1::Light& message, const string& path) {
+    scene::Light light;
+    if (message.has_position()) light.position = vectorFrom(message.position());
+    const auto read = [&path](bool given, double value, const char* name, float& number) {
+        if (!given) return Result<void>{};
+        const Result<float> narrowed = floatFrom(value, path + "." + name);
+        if (!narrowed) return Result<void>{narrowed.error()};
+        number = *narrowed;
+        return Result<void>{};
+    };
+    Result<void> done = read(message.has_ambient(), message.ambient(), "ambient", light.ambient);
+    if (done) done = read(message.has_diffuse(), message.diffuse(), "diffuse", light.diffuse);
+    if (done) done = read(message.has_specular(), message.specular(), "specular", light.specular);
+    if (done) done = read(message.has_exponent(), message.exponent(), "exponent", light.exponent);
+    if (!done) return done.error();
+    return light;
+}
+
 /// The parameters of single ray models.
 Result<void> readParameters(const v1::Layer& message, const string& path, scene::Layer& layer) {
     if (message.has_levels()) {
         auto levels = levelsFrom(message.levels(), path + ".levels");
         if (!levels) return std::move(levels).error();
         layer.levels = *std::move(levels);
+    }
+    if (message.has_light()) {
+        const auto light = lightFrom(message.light(), path + ".light");
+        if (!light) return light.error();
+        layer.light = *light;
     }
     if (message.has_edge_width()) {
         const auto width = floatFrom(message.edge_width(), path + ".edge_width");
@@ -201,7 +216,7 @@ Result<scene::Layer> layerFrom(const v1::Layer& message, const string& path) {
     if (!integrator) return std::move(integrator).error();
     auto evaluator = oursFrom(kEvaluators, message.evaluator(), path + ".evaluator");
     if (!evaluator) return std::move(evaluator).error();
-    auto sampling = samplingFrom(message.sampling(), path + ".sampling");
+    auto sampling = oursFrom(kSamplings, message.sampling(), path + ".sampling");
     if (!sampling) return std::move(sampling).error();
     auto map = mapFrom(message.transfer_function(), path + ".transfer_function");
     if (!map) return std::move(map).error();

@@ -53,6 +53,12 @@ constexpr std::array kEvaluators{
     Pair{MeshEvaluator::kProjectionFaces, v1::MESH_EVALUATOR_PROJECTION_FACES},
 };
 
+constexpr std::array kSamplings{
+    Pair{scene::Sampling::kTrilinear, v1::SAMPLING_TRILINEAR},
+    Pair{scene::Sampling::kNearest, v1::SAMPLING_NEAREST},
+    Pair{scene::Sampling::kTricubic, v1::SAMPLING_TRICUBIC},
+};
+
 constexpr std::array kScales{
     Pair{scene::Scale::Kind::kLinear, v1::Scale::LINEAR},
     Pair{scene::Scale::Kind::kLog, v1::Scale::LOG},

@@ -65,11 +65,20 @@ void putSelection(v1::Layer* message, const scene::Layer& layer) {
     for (const float value : layer.markers.values) message->mutable_markers()->add_values(value);
 }
 
+void put(v1::Light* message, const scene::Light& light) {
+    if (light.position) put(message->mutable_position(), *light.position);
+    message->set_ambient(light.ambient);
+    message->set_diffuse(light.diffuse);
+    message->set_specular(light.specular);
+    message->set_exponent(light.exponent);
+}
+
 void putParameters(v1::Layer* message, const scene::Layer& layer) {
     message->set_edge_width(layer.edgeWidth);
     put(message->mutable_edge_colour(), layer.edgeColour);
     message->set_extinction_scale(layer.extinctionScale);
     message->set_exposure(layer.exposure);
+    if (layer.light) put(message->mutable_light(), *layer.light);
     if (layer.levels == scene::Levels{}) return;
     v1::Levels* levels = message->mutable_levels();
     levels->set_spacing(theirsFrom(kSpacings, layer.levels.spacing));
@@ -96,8 +105,7 @@ void put(v1::Layer* message, const scene::Layer& layer) {
     putSelection(message, layer);
     putParameters(message, layer);
     message->set_step_world(layer.stepWorld);
-    message->set_sampling(layer.sampling == scene::Sampling::kNearest ? v1::SAMPLING_NEAREST
-                                                                      : v1::SAMPLING_TRILINEAR);
+    message->set_sampling(theirsFrom(kSamplings, layer.sampling));
 }
 
 }  // namespace

@@ -119,7 +119,7 @@ Result<void> setEvaluation(scene::Layer& layer, const SceneOptions& options) {
                         scene::allowedIntegrators(layer.model) + " can");
     }
     layer.stepWorld = options.step;
-    if (options.sampling == "nearest") layer.sampling = scene::Sampling::kNearest;
+    if (!options.sampling.empty()) layer.sampling = *scene::samplingNamed(options.sampling);
     return {};
 }
 
@@ -151,6 +151,17 @@ Result<void> setFields(scene::Layer& layer, const SceneOptions& options) {
     return {};
 }
 
+scene::Light lightFrom(const SceneOptions& options) {
+    scene::Light light;
+    const std::vector<double>& place = options.lightPosition;
+    if (!place.empty()) light.position = glm::dvec3(place[0], place[1], place[2]);
+    light.ambient = options.ambient.value_or(light.ambient);
+    light.diffuse = options.diffuse.value_or(light.diffuse);
+    light.specular = options.specular.value_or(light.specular);
+    light.exponent = options.shininess.value_or(light.exponent);
+    return light;
+}
+
 void setLook(scene::Layer& layer, const SceneOptions& options) {
     layer.headlight = !options.unlit;
     if (options.coloured) layer.coloured = true;
@@ -158,6 +169,7 @@ void setLook(scene::Layer& layer, const SceneOptions& options) {
         layer.coloured = false;
         layer.surfaceColour = vectorFrom(options.colour);
     }
+    if (options.light) layer.light = lightFrom(options);
     if (options.edgeWidth) layer.edgeWidth = *options.edgeWidth;
     if (!options.edgeColour.empty()) layer.edgeColour = vectorFrom(options.edgeColour);
     if (options.exposure) layer.exposure = *options.exposure;

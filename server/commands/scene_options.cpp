@@ -154,11 +154,27 @@ void addModelOptions(Group group, SceneOptions& o) {
         ->check(finite() & CLI::NonNegativeNumber);
 }
 
+void addLight(Group group, SceneOptions& o) {
+    auto* light = group.flag("--light", o.light, "A volume of voxels reflects light");
+    group.numbers("--light-position", o.lightPosition, 3, "X Y Z in the world; none: at the eye")
+        ->needs(light);
+    const auto number = [&](const char* name, std::optional<float>& value, const char* help) {
+        return group.add(name, value, help)->check(finite())->needs(light);
+    };
+    number("--ambient", o.ambient, "Part of the colour that needs no light; none: 0.3")
+        ->check(CLI::NonNegativeNumber);
+    number("--diffuse", o.diffuse, "Part that faces the light; none: 0.7")
+        ->check(CLI::NonNegativeNumber);
+    number("--specular", o.specular, "White highlight; none: 0.2")->check(CLI::NonNegativeNumber);
+    number("--shininess", o.shininess, "Exponent of the highlight; none: 32")
+        ->check(CLI::PositiveNumber);
+}
+
 void addEvaluation(Group group, SceneOptions& o) {
     group.add("--step", o.step, "Sampling distance in voxels' world units; 0: half a voxel")
         ->check(finite() & CLI::NonNegativeNumber);
-    group.add("--sampling", o.sampling, "trilinear or nearest")
-        ->check(CLI::IsMember({"trilinear", "nearest"}));
+    group.add("--sampling", o.sampling, "Between voxels: trilinear, tricubic or nearest")
+        ->check(CLI::IsMember({"trilinear", "tricubic", "nearest"}));
 }
 
 void addView(Group group, SceneOptions& o) {
@@ -255,6 +271,7 @@ void addSceneOptions(CLI::App& command, SceneOptions& o, Choices choices) {
     if (choices == Choices::kOne) addChoices({command, "What is drawn", &ofLayer}, o);
     addWhat({command, "What is drawn", &ofLayer}, o);
     addModelOptions({command, "Ray models", &ofLayer}, o);
+    addLight({command, "Light", &ofLayer}, o);
     addEvaluation({command, "How rays are evaluated", &ofLayer}, o);
     // Not excludes(): --help would list them all.
     command.parse_complete_callback([document, ofLayer] {

@@ -43,6 +43,9 @@ struct SceneOptions {
     std::optional<float> edgeWidth;
     std::vector<float> edgeColour;
     std::optional<float> exposure, extinctionScale;
+    bool light = false;
+    std::vector<double> lightPosition;
+    std::optional<float> ambient, diffuse, specular, shininess;
     // the scene
     std::string sceneFile, camera, projection;
     std::vector<std::tuple<double, double, double, double>> clip;  ///< Normal and offset.

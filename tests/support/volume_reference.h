@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <vector>
 
 #include <glm/glm.hpp>
 
@@ -63,6 +64,7 @@ public:
         const glm::dvec3 last = glm::dvec3(volume_.size) - 1.0;
         const glm::dvec3 at = glm::clamp(gridFrom(world), glm::dvec3(0.0), last);
         if (sampling_ == scene::Sampling::kNearest) return voxel(glm::ivec3(at + 0.5));
+        if (sampling_ == scene::Sampling::kTricubic) return tricubic(at);
         const glm::ivec3 low = glm::min(glm::ivec3(at), glm::max(volume_.size - 2, 0));
         const glm::dvec3 t = at - glm::dvec3(low);
         double sum = 0.0;
@@ -74,46 +76,19 @@ public:
         return sum;
     }
 
-    /// Emission and absorption by `samples` midpoints: premultiplied linear colour and opacity.
-    [[nodiscard]] glm::dvec4 composite(const ReferenceRay& ray, const data::TransferFunction& map,
-                                       int samples) const {
+    /// The values in the middle of `samples` equal steps; none where the ray misses the volume.
+    [[nodiscard]] std::vector<double> valuesOn(const ReferenceRay& ray, int samples) const {
         const glm::dvec2 inside = span(ray);
-        if (inside.x > inside.y) return glm::dvec4(0.0);
-        const double dt = (inside.y - inside.x) / samples;
-        glm::dvec3 colour{0.0};
-        double depth = 0.0;
-        for (int i = 0; i < samples; ++i) {
-            const glm::dvec4 matter = matterAt(ray, inside.x + (i + 0.5) * dt, map);
-            colour += glm::dvec3(matter) * (std::exp(-depth) * -std::expm1(-matter.a * dt));
-            depth += matter.a * dt;
-        }
-        return {colour, -std::expm1(-depth)};
-    }
-
-    /// The largest of `samples` values at midpoints; `met` tells whether the ray met the volume.
-    [[nodiscard]] double largest(const ReferenceRay& ray, int samples, bool& met) const {
-        const glm::dvec2 inside = span(ray);
-        met = inside.x <= inside.y;
-        double found = -1e300;
-        for (int i = 0; met && i < samples; ++i) {
+        std::vector<double> values;
+        for (int i = 0; inside.x <= inside.y && i < samples; ++i) {
             const double s = inside.x + (inside.y - inside.x) * (i + 0.5) / samples;
-            found = std::max(found, valueAt(ray.eye + s * ray.direction));
+            values.push_back(valueAt(ray.eye + s * ray.direction));
         }
-        return found;
+        return values;
     }
 
-private:
-    [[nodiscard]] glm::dvec3 gridFrom(const glm::dvec3& world) const {
-        return glm::transpose(volume_.direction) * (world - volume_.origin) / volume_.spacing;
-    }
-    [[nodiscard]] double voxel(const glm::ivec3& i) const {
-        return values_[static_cast<std::size_t>(i.x) +
-                       static_cast<std::size_t>(volume_.size.x) *
-                           (i.y + static_cast<std::size_t>(volume_.size.y) * i.z)];
-    }
-    [[nodiscard]] glm::dvec4 matterAt(const ReferenceRay& ray, double s,
-                                      const data::TransferFunction& map) const {
-        const double value = valueAt(ray.eye + s * ray.direction);
+    /// Linear colour and extinction of `value`.
+    [[nodiscard]] static glm::dvec4 matterOf(double value, const data::TransferFunction& map) {
         const auto& points = map.points;
         std::size_t above = 0;
         while (above < points.size() && value >= points[above].value) ++above;
@@ -124,6 +99,57 @@ private:
         if (above == points.size()) return matter(above - 1);
         const double low = points[above - 1].value, high = points[above].value;
         return glm::mix(matter(above - 1), matter(above), (value - low) / (high - low));
+    }
+
+    /// Emission and absorption by `samples` midpoints: premultiplied linear colour and opacity.
+    [[nodiscard]] glm::dvec4 composite(const ReferenceRay& ray, const data::TransferFunction& map,
+                                       int samples) const {
+        const glm::dvec2 inside = span(ray);
+        if (inside.x > inside.y) return glm::dvec4(0.0);
+        const double dt = (inside.y - inside.x) / samples;
+        glm::dvec3 colour{0.0};
+        double depth = 0.0;
+        for (int i = 0; i < samples; ++i) {
+            const glm::dvec3 at = ray.eye + (inside.x + (i + 0.5) * dt) * ray.direction;
+            const glm::dvec4 matter = matterOf(valueAt(at), map);
+            colour += glm::dvec3(matter) * (std::exp(-depth) * -std::expm1(-matter.a * dt));
+            depth += matter.a * dt;
+        }
+        return {colour, -std::expm1(-depth)};
+    }
+
+    /// The largest of `samples` values at midpoints; `met` tells whether the ray met the volume.
+    [[nodiscard]] double largest(const ReferenceRay& ray, int samples, bool& met) const {
+        const std::vector<double> values = valuesOn(ray, samples);
+        met = !values.empty();
+        return met ? *std::max_element(values.begin(), values.end()) : 0.0;
+    }
+
+private:
+    /// Cubic convolution with a = -1/2, by its kernel as a function of the distance.
+    [[nodiscard]] double tricubic(const glm::dvec3& at) const {
+        const auto kernel = [](double x) {
+            x = std::abs(x);
+            if (x < 1.0) return 1.5 * x * x * x - 2.5 * x * x + 1.0;
+            return x < 2.0 ? -0.5 * x * x * x + 2.5 * x * x - 4.0 * x + 2.0 : 0.0;
+        };
+        const glm::ivec3 first = glm::ivec3(glm::floor(at)) - 1;
+        double sum = 0.0;
+        for (int point = 0; point < 64; ++point) {
+            const glm::ivec3 i = first + glm::ivec3{point & 3, point >> 2 & 3, point >> 4};
+            const glm::dvec3 off = at - glm::dvec3(i);
+            sum += kernel(off.x) * kernel(off.y) * kernel(off.z) *
+                   voxel(glm::clamp(i, glm::ivec3(0), volume_.size - 1));
+        }
+        return sum;
+    }
+    [[nodiscard]] glm::dvec3 gridFrom(const glm::dvec3& world) const {
+        return glm::transpose(volume_.direction) * (world - volume_.origin) / volume_.spacing;
+    }
+    [[nodiscard]] double voxel(const glm::ivec3& i) const {
+        return values_[static_cast<std::size_t>(i.x) +
+                       static_cast<std::size_t>(volume_.size.x) *
+                           (i.y + static_cast<std::size_t>(volume_.size.y) * i.z)];
     }
 
     const data::Volume& volume_;

@@ -91,7 +91,7 @@ TEST_F(ProgramTest, ABrokenChunkIsReportedWithItsFileAndLine) {
                             "vec4 packRay(RayState s) { return vec4(s.a); }\n"
                             "RayState unpackRay(vec4 v) { return RayState(v.r); }\n")};
     std::vector<shading::Constant> constants = support::layerConstants(0);
-    constants.insert(constants.end(), {{"kTrilinear", true},
+    constants.insert(constants.end(), {{"kSampling", 1},
                                        {"kFilterInHardware", true},
                                        {"kSkipBricks", true},
                                        {"kEarlyStop", true},

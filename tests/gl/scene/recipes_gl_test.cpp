@@ -1,13 +1,13 @@
 // Every row of the table of ray models builds for every kind of data it claims.
 #include <cstddef>
 
-#include "renderer/plan/effects.h"
 #include "renderer/scene/ray_models.h"
 #include "renderer/shading/program_cache.h"
 #include "renderer/shading/shared.h"
 #include "renderer/volume/march.h"
 #include "tests/support/gl_test.h"
 #include "tests/support/layer_constants.h"
+#include "tests/support/march_variants.h"
 
 namespace volcast {
 namespace {
@@ -21,30 +21,21 @@ protected:
 
 TEST_F(Recipes, EveryModelOfVolumesMarchesInEveryVariant) {
     int built = 0;
-    for (std::size_t row = 0; row < scene::rayModels().size(); ++row) {
-        if (!scene::rayModels()[row].onVolumes) continue;
-        for (int variant = 0; variant < 32; ++variant) {
-            plan::LayerPlan plan;
-            int bit = 0;
-            for (const char* effect :
-                 {plan::kInterpolation, plan::kEmptyBricks, plan::kEarlyStop}) {
-                plan.effects.push_back(
-                    {.name = effect, .on = (variant >> bit++ & 1) != 0, .reason = "test"});
-            }
-            const auto program = programs_.ray(
-                volume::marchRecipe(plan, static_cast<scene::RayModel>(row),
-                                    (variant >> 3 & 1) != 0, support::layerConstants(variant)));
+    for (const scene::RayModelRow& row : scene::rayModels()) {
+        if (!row.onVolumes) continue;
+        for (int variant = 0; variant < support::kMarchVariants; ++variant) {
+            const auto program = programs_.ray(volume::marchRecipe(
+                support::marchTraits(row, variant), support::layerConstants(variant)));
             ASSERT_TRUE(program.has_value()) << program.error().message;
             ++built;
         }
     }
-    EXPECT_EQ(built, 64);
+    EXPECT_EQ(built, 7 * support::kMarchVariants);
 }
 
 TEST_F(Recipes, TheLayerBlockLiesInMemoryAsTheDriverSeesIt) {
-    plan::LayerPlan plan;
-    const auto* program = must(programs_.ray(
-        volume::marchRecipe(plan, scene::RayModel::kVolume, true, support::layerConstants(2))));
+    const auto* program =
+        must(programs_.ray(volume::marchRecipe({.clipPlanes = 1}, support::layerConstants(2))));
     using shading::shared::LayerBlock;
     EXPECT_EQ(program->blockBytes("LayerUniforms"), static_cast<int>(sizeof(LayerBlock)));
     const auto offset = [&](const char* member) {
@@ -61,6 +52,7 @@ TEST_F(Recipes, TheLayerBlockLiesInMemoryAsTheDriverSeesIt) {
     EXPECT_EQ(either("rayDirectionUp"), static_cast<int>(offsetof(LayerBlock, rayDirectionUp)));
     EXPECT_EQ(either("viewport"), static_cast<int>(offsetof(LayerBlock, viewport)));
     EXPECT_EQ(either("gridFromData"), static_cast<int>(offsetof(LayerBlock, gridFromData)));
+    EXPECT_EQ(either("clipPlanes[0]"), static_cast<int>(offsetof(LayerBlock, clipPlanes)));
     EXPECT_EQ(either("grid"), static_cast<int>(offsetof(LayerBlock, grid)));
 }
 

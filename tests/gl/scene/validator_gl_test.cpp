@@ -16,7 +16,6 @@
 #include "renderer/mesh/projection.h"
 #include "renderer/mesh/shared.h"
 #include "renderer/mesh/walk.h"
-#include "renderer/plan/effects.h"
 #include "renderer/scene/ray_models.h"
 #include "renderer/shading/embedded_chunks.h"
 #include "renderer/shading/glsl_scan.h"
@@ -24,6 +23,7 @@
 #include "renderer/volume/march.h"
 #include "tests/support/import_files.h"
 #include "tests/support/layer_constants.h"
+#include "tests/support/march_variants.h"
 
 namespace volcast {
 namespace {
@@ -174,18 +174,11 @@ private:
 };
 
 void Validator::addMarches() {
-    for (std::size_t row = 0; row < scene::rayModels().size(); ++row) {
-        if (!scene::rayModels()[row].onVolumes) continue;
-        for (int variant = 0; variant < 32; ++variant) {
-            plan::LayerPlan plan;
-            int effects = 0;
-            for (const char* effect :
-                 {plan::kInterpolation, plan::kEmptyBricks, plan::kEarlyStop}) {
-                plan.effects.push_back(
-                    {.name = effect, .on = bit(variant, effects++), .reason = "test"});
-            }
-            addRay(volume::marchRecipe(plan, static_cast<scene::RayModel>(row), bit(variant, 3),
-                                       support::layerConstants(variant >> 3)),
+    for (const scene::RayModelRow& row : scene::rayModels()) {
+        if (!row.onVolumes) continue;
+        for (int variant = 0; variant < support::kMarchVariants; ++variant) {
+            addRay(volume::marchRecipe(support::marchTraits(row, variant),
+                                       support::layerConstants(variant)),
                    shading::kFullScreenVertex);
         }
     }
@@ -301,9 +294,9 @@ void Validator::addOtherPasses() {
 
 TEST_F(Validator, EveryProgramIsGlslToAnIndependentCompiler) {
     addMarches();
-    EXPECT_EQ(programs_, 64);
+    EXPECT_EQ(programs_, 7 * support::kMarchVariants);
     addWalks();
-    EXPECT_EQ(programs_, 64 + 17 * kWalkVariants);
+    EXPECT_EQ(programs_, 7 * support::kMarchVariants + 17 * kWalkVariants);
     addProjections();
     addLevels();
     addSurfaces();

@@ -159,6 +159,41 @@ TEST_F(MarchClosedForm, MipOfALinearFieldIsItsLargerEnd) {
     EXPECT_GT(met, 100);
 }
 
+// One sample a ray, in the middle between two planes: the value at a point.
+TEST_F(MarchClosedForm, TricubicKeepsGridPointsAndReproducesQuadratics) {
+    const auto quadratic = [](const glm::dvec3& p) {
+        return 0.1 * (p.x * p.x - 3.0 * p.x + 1.0) * (0.1 * p.y * p.y + p.y) *
+               (2.0 + p.z - 0.2 * p.z * p.z);
+    };
+    constexpr double kScale = 160.0;
+    scene::Scene scene =
+        sceneOf(support::volumeOf({.size = {9, 8, 7}}, quadratic),
+                {{{.value = static_cast<float>(-kScale), .colour = glm::vec3(0.0F)},
+                  {.value = static_cast<float>(kScale), .colour = glm::vec3(1.0F)}}},
+                RayModel::kMip);
+    scene.layers[0].sampling = scene::Sampling::kTricubic;
+    scene.layers[0].stepWorld = 1.0;
+    scene.camera.projection = Projection::kOrthographic;
+    const auto expectAt = [&](const glm::dvec3& point) {
+        scene.camera.eye = point + glm::dvec3(0, 0, 20);
+        scene.camera.center = point;
+        scene.clipPlanes = {{.normal = {0, 0, 1}, .offset = point.z - 0.25},
+                            {.normal = {0, 0, -1}, .offset = -point.z - 0.25}};
+        // Positions are off by 2^-20 where the field rises by at most 60 a voxel; the sum of values
+        // up to 157 is rounded some 10 times, each time by at most 2^-24 of twice that.
+        EXPECT_NEAR(draw(scene, {1, 1}).at(0, 0).r * 2.0 * kScale - kScale, quadratic(point), 3e-4)
+            << point.x << ' ' << point.y << ' ' << point.z;
+    };
+    for (int i = 0; i < 60; ++i) {
+        expectAt({1.0 + std::fmod(i * 0.618, 1.0) * 6.0, 1.0 + std::fmod(i * 0.755, 1.0) * 5.0,
+                  1.0 + std::fmod(i * 0.570, 1.0) * 4.0});
+    }
+    for (int i = 0; i < 4; ++i) expectAt({2.0 * i + 1, i + 2, i + 1});
+    // Grid points in a face, along which values are read beyond it.
+    for (int i = 0; i < 4; ++i) expectAt({0, 2 * i, 3});
+    for (int i = 0; i < 4; ++i) expectAt({8, 7, i + 1});
+}
+
 // C(max f), not max C(f): a peak of the map that the ray passes below the maximum must not show.
 TEST_F(MarchClosedForm, MipMapsTheMaximumAndNotTheColours) {
     scene::Scene scene =

@@ -5,6 +5,7 @@
 #include "gtest/gtest.h"
 
 #include "renderer/plan/effects.h"
+#include "renderer/scene/ray_models.h"
 
 namespace volcast::plan {
 namespace {
@@ -74,6 +75,58 @@ TEST_F(Plan, EmptyBricksAreLookedForOnlyWhereTheyCanBe) {
     EXPECT_FALSE(planned().has(kEmptyBricks));
 }
 
+TEST_F(Plan, EveryModelOfVoxelsSaysWhichBricksItPassesOver) {
+    layer_.map.points[0].extinction = 0.1F;
+    for (const auto& [model, passes] :
+         {std::pair{RayModel::kMip, true}, std::pair{RayModel::kMinip, true},
+          std::pair{RayModel::kIsosurface, true}, std::pair{RayModel::kMipColour, false},
+          std::pair{RayModel::kSplat, false}, std::pair{RayModel::kXray, false}}) {
+        layer_.model = model;
+        layer_.interval.reset();
+        EXPECT_EQ(planned().has(kEmptyBricks), passes) << scene::name(model);
+        EXPECT_TRUE(lists(planned(), kEmptyBricks));
+        layer_.interval = data::Range{.min = 12.0F, .max = 13.0F};
+        EXPECT_TRUE(planned().has(kEmptyBricks)) << scene::name(model);
+    }
+    layer_.interval.reset();
+    layer_.map.points[0].extinction = 0.0F;
+    layer_.model = RayModel::kXray;
+    EXPECT_TRUE(planned().has(kEmptyBricks));
+}
+
+TEST_F(Plan, SamplesOfVoxelsTakeTheCheapestWayThatIsRight) {
+    EXPECT_EQ(planned().method, scene::Integrator::kAverage);
+    layer_.model = RayModel::kXray;
+    EXPECT_EQ(planned().method, scene::Integrator::kFront);
+    layer_.model = RayModel::kMipColour;
+    EXPECT_EQ(planned().method, scene::Integrator::kExact);
+    layer_.sampling = scene::Sampling::kTricubic;
+    EXPECT_EQ(planned().method, scene::Integrator::kExact);
+    layer_.sampling = scene::Sampling::kNearest;
+    EXPECT_EQ(planned().method, scene::Integrator::kEnds);
+}
+
+TEST_F(Plan, AnIsosurfaceOfVoxelsNeedsAGradientOnlyWhereItIsLit) {
+    layer_.model = RayModel::kIsosurface;
+    EXPECT_TRUE(planned().has(kGradient));
+    EXPECT_TRUE(planned().has(kEarlyStop));
+    layer_.headlight = false;
+    EXPECT_FALSE(planned().has(kGradient));
+    EXPECT_TRUE(lists(planned(), kGradient));
+}
+
+TEST_F(Plan, AVolumeOfVoxelsIsLitOnlyWhereItHasALight) {
+    EXPECT_FALSE(planned().has(kLight));
+    EXPECT_TRUE(lists(planned(), kLight));
+    layer_.light = scene::Light{};
+    EXPECT_TRUE(planned().has(kLight));
+    layer_.model = RayModel::kMip;
+    EXPECT_FALSE(planned().has(kLight));
+    layer_.model = RayModel::kVolume;
+    layer_.dataset = "mesh";
+    EXPECT_FALSE(planned().has(kLight));
+}
+
 TEST_F(Plan, ATransparentMapDrawsNothing) {
     layer_.map.points[1].value = 1000.0F;
     layer_.map.points[0].value = 20.5F;
@@ -85,6 +138,16 @@ TEST_F(Plan, ATransparentMapDrawsNothing) {
         layer_.model = RayModel::kMip;  // Shows colours whatever the extinction.
         EXPECT_TRUE(planned().drawn);
     }
+}
+
+TEST_F(Plan, TricubicValuesMayLeaveTheRangeOfTheVoxels) {
+    layer_.map.points = {{.value = 24.0F, .extinction = 0.0F},
+                         {.value = 25.0F, .extinction = 100.0F}};
+    EXPECT_FALSE(planned().drawn);
+    layer_.sampling = scene::Sampling::kTricubic;  // Up to 20 + 0.48 * 10.
+    EXPECT_TRUE(planned().drawn);
+    layer_.map.points[0].value = 24.9F;
+    EXPECT_FALSE(planned().drawn);
 }
 
 TEST_F(Plan, AnExtinctionPeakBetweenTheRangesEndsIsSeen) {

@@ -32,6 +32,16 @@ TEST(SceneDiff, ACameraMoveIsNothingElse) {
     EXPECT_TRUE(changes.layers.empty());
 }
 
+TEST(SceneDiff, ALightIsAnotherProgramAndItsNumbersAreUniforms) {
+    Scene lit = twoLayers();
+    lit.layers[1].light = Light{};
+    EXPECT_TRUE(diff(twoLayers(), lit).layers.at(0).program);
+    Scene brighter = lit;
+    brighter.layers[1].light->diffuse = 2.0F;
+    EXPECT_TRUE(diff(lit, brighter).layers.at(0).uniforms);
+    EXPECT_FALSE(diff(lit, brighter).layers.at(0).program);
+}
+
 TEST(SceneDiff, EachChangeOfALayerHasItsFlagAndNoOther) {
     using Edit = void (*)(Layer&);
     using Flag = bool LayerDiff::*;

@@ -54,7 +54,12 @@ scene::Scene fullScene() {
                      .integrator = scene::Integrator::kPsi,
                      .evaluator = scene::MeshEvaluator::kProjection,
                      .stepWorld = 0.0,
-                     .sampling = scene::Sampling::kTrilinear},
+                     .sampling = scene::Sampling::kTricubic,
+                     .light = scene::Light{.position = glm::dvec3{1.5, -2.0, 1e7},
+                                           .ambient = 0.125F,
+                                           .diffuse = 0.5F,
+                                           .specular = 0.25F,
+                                           .exponent = 7.0F}},
                     {.id = "b",
                      .dataset = "volume",
                      .field = {},
@@ -154,6 +159,9 @@ TEST(SceneMessage, RefusesEnumeratorsItDoesNotKnow) {
         scene.mutable_layers(1)->set_sampling(static_cast<v1::Sampling>(-5));
     });
     EXPECT_EQ(sampling.field, "layers[1].sampling");
+    const Error light = refusal(
+        [](v1::Scene& scene) { scene.mutable_layers(1)->mutable_light()->set_diffuse(1e39); });
+    EXPECT_EQ(light.field, "layers[1].light.diffuse");
     const Error integrator = refusal([](v1::Scene& scene) {
         scene.mutable_layers(1)->set_integrator(static_cast<v1::Integrator>(9));
     });

@@ -1,7 +1,9 @@
 #include "renderer/scene/validate.h"
 
 #include <cmath>
+#include <initializer_list>
 #include <limits>
+#include <utility>
 
 #include "gtest/gtest.h"
 
@@ -87,6 +89,19 @@ TEST(ValidateScene, NamesTheFieldAtFault) {
               (Refusal{invalid, "layers[0].step_world"}));
     EXPECT_EQ(refused([](Scene& s) { s.layers[0].surfaceColour.b = kNan; }),
               (Refusal{invalid, "layers[0].surface_colour"}));
+    const auto refusedLight = [&](auto edit) {
+        return refused([&](Scene& s) { edit(s.layers[0].light.emplace()); });
+    };
+    EXPECT_EQ(refusedLight([](Light& l) { l.ambient = -0.1F; }),
+              (Refusal{invalid, "layers[0].light.ambient"}));
+    EXPECT_EQ(refusedLight([](Light& l) { l.diffuse = kNan; }),
+              (Refusal{invalid, "layers[0].light.diffuse"}));
+    EXPECT_EQ(refusedLight([](Light& l) { l.specular = std::numeric_limits<float>::infinity(); }),
+              (Refusal{invalid, "layers[0].light.specular"}));
+    EXPECT_EQ(refusedLight([](Light& l) { l.exponent = 0.0F; }),
+              (Refusal{invalid, "layers[0].light.exponent"}));
+    EXPECT_EQ(refusedLight([](Light& l) { l.position = glm::dvec3(0, kNan, 0); }),
+              (Refusal{invalid, "layers[0].light.position"}));
     EXPECT_EQ(refused([](Scene& s) { s.layers[0].timeStep = -1; }),
               (Refusal{invalid, "layers[0].time_step"}));
     EXPECT_EQ(refused([](Scene& s) { s.layers[0].map.points.clear(); }),
@@ -113,6 +128,15 @@ TEST(ValidateScene, AgainstItsData) {
               (Refusal{ErrorCode::kInvalidArgument, "layers[0].time_step"}));
     EXPECT_EQ(refused(volumeSummary(), [](Layer& l) { l.model = RayModel::kSurface; }),
               (Refusal{ErrorCode::kUnsupported, "layers[0].model"}));
+    for (const auto& [field, edit] :
+         std::initializer_list<std::pair<const char*, void (*)(Layer&)>>{
+             {"layers[0].density_field", [](Layer& l) { l.densityField = "f"; }},
+             {"layers[0].scale", [](Layer& l) { l.scale.kind = Scale::Kind::kLog; }},
+             {"layers[0].scale", [](Layer& l) { l.scale.domain = {.min = 1.0F, .max = 2.0F}; }},
+             {"layers[0].markers.field",
+              [](Layer& l) { l.markers = {.field = "f", .values = {1.0F}}; }}}) {
+        EXPECT_EQ(refused(volumeSummary(), edit), (Refusal{ErrorCode::kUnsupported, field}));
+    }
     data::DatasetSummary bare = meshSummary();
     bare.fields.clear();
     EXPECT_EQ(refused(bare, [](Layer& l) { l.model = RayModel::kVolume; }),

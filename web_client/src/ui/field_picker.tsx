@@ -176,7 +176,7 @@ export function FieldPicker({ state }: Props) {
       </div>
       <div class="options">
         {isMesh(state) && <ScaleOptions state={state} slot="first" />}
-        {isMesh(state) && <IntervalOptions state={state} />}
+        <IntervalOptions state={state} />
         {isMesh(state) && <MarkerOptions state={state} />}
       </div>
     </section>

@@ -26,6 +26,7 @@ function SamplingOption({ state }: Props) {
       value={state.layer.value?.sampling ?? Sampling.TRILINEAR}
       options={[
         [Sampling.TRILINEAR, "Linear"],
+        [Sampling.TRICUBIC, "Cubic"],
         [Sampling.NEAREST, "Nearest voxel"],
       ]}
       take={(sampling) => changeLayer(state, { sampling })}
