@@ -1,6 +1,6 @@
-// Marches through a voxel volume: equal steps over the exact length of the ray in the box, so that no
-// step is partial and every ray's own length counts. Values sit on grid points; the box spans from
-// the first to the last.
+// Marches through a voxel volume: equal steps over the exact length of the ray in the box, so that
+// no step is partial and every ray's own length counts. Values sit on grid points; the box spans
+// from the first to the last.
 //
 // A step's piece is constant, of the value in its middle; where kPieces it runs from the value at
 // its front end to that at its back. A piece that ends the ray is then halved kHalvings times, so
@@ -8,7 +8,8 @@
 // is on different sides at both ends of what is left. A line through these ends gives the hit. A
 // field that crosses a level and comes back within one step is not seen to do so.
 // Constants: kPieces, kSkipBricks, kEarlyStop, kMaxRaySamples, kBrickSize; kInterval: only values
-// in an interval count; kLit: levels are lit from the eye; kShaded: samples are by layer.light; those of lib/window.glsl and volume/voxels.glsl.
+// in an interval count; kLit: levels are lit from the eye; kShaded: samples are by layer.light;
+// those of lib/window.glsl and volume/voxels.glsl.
 // Uses: classify through the model; segment through the model.
 #include "lib/box.glsl"
 #include "lib/light.glsl"
@@ -72,9 +73,9 @@ vec2 planeRange(ivec3 brick) {
     return rangeOf(rowRange(brick - next), rowRange(brick), rowRange(brick + next));
 }
 
-// What tricubic values in a brick are within. They are sums over voxels that reach into the
-// bricks around. Along an axis the weights below 0 add up to -t (1 - t) / 2, so that all their sizes
-// do to 1 + t (1 - t) <= 5/4; along three to 125/64. All weights add up to 1: those below 0 to -N and
+// What tricubic values in a brick are within. They are sums over voxels that reach into the bricks
+// around. Along an axis the weights below 0 add up to -t (1 - t) / 2, so that all their sizes do to
+// 1 + t (1 - t) <= 5/4; along three to 125/64. All weights add up to 1: those below 0 to -N and
 // those above to 1 + N with 1 + 2 N <= 125/64, N <= 61/128. Values are then between
 // low - N (high - low) and high + N (high - low); 0.48 is more than N by more than all rounding.
 vec2 tricubicRange(ivec3 brick) {

@@ -5,6 +5,8 @@
 #include <functional>
 #include <vector>
 
+#include "renderer/data/mesh_builder.h"
+#include "tests/support/mesh_phantoms.h"
 #include "tests/support/phantoms.h"
 #include "tests/support/render_test.h"
 #include "tests/support/volume_reference.h"
@@ -188,6 +190,34 @@ TEST_F(VoxelIsosurface, TheNearerOfTwoLayersShows) {
         EXPECT_NEAR(draw(scene_, {3, 3}).at(1, 1).r, 0.6, 1e-6);
         scene_.camera.eye = {2, 2, -30};
         EXPECT_NEAR(draw(scene_, {3, 3}).at(1, 1).r, 0.3, 1e-6);
+    }
+}
+
+// A slab of cells from z = 3 to 4, between levels at z = 2.4 and 4.8.
+TEST_F(VoxelIsosurface, MeshesAndVoxelsHideEachOther) {
+    const data::MeshInput slab = support::latticeMesh({.low = {-1, -1, 3}, .high = {5, 5, 4}});
+    renderer_->addDataset("mesh", support::must(data::buildMesh(slab)));
+    scene::Layer surface;
+    surface.id = surface.dataset = "mesh";
+    surface.model = RayModel::kSurface;
+    surface.headlight = false;
+    surface.surfaceColour = glm::vec3(0.125F);
+    scene_.layers.push_back(surface);
+    const auto ramp = [](const glm::dvec3& p) { return p.z / 8.0; };
+    add("ramp", support::volumeOf({.size = {5, 5, 9}}, ramp), {0.3F});
+    scene_.camera.orthographicHeight = 2.0;
+    for (const auto projection : {Projection::kPerspective, Projection::kOrthographic}) {
+        scene_.camera.projection = projection;
+        const auto seenFrom = [&](double z, float level) {
+            scene_.layers[1].levels.values = {level};
+            scene_.camera.eye = {2, 2, z};
+            scene_.camera.center = {2, 2, 3.5};
+            return draw(scene_, {3, 3}).at(1, 1).r;
+        };
+        EXPECT_NEAR(seenFrom(30, 0.6F), 0.6, 1e-6);
+        EXPECT_EQ(seenFrom(30, 0.3F), 0.125F);
+        EXPECT_NEAR(seenFrom(-30, 0.3F), 0.3, 1e-6);
+        EXPECT_EQ(seenFrom(-30, 0.6F), 0.125F);
     }
 }
 
