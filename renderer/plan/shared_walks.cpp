@@ -12,8 +12,8 @@ namespace {
 using scene::Layer;
 using scene::RayModel;
 
-/// Rays of both meet the same pieces with the same values. An interval cuts the pieces of a volume and
-/// would cut off levels at its ends.
+/// Rays of both meet the same pieces with the same values. An interval cuts the pieces of a volume
+/// and would cut off levels at its ends.
 bool sameData(const Layer& a, const Layer& b) {
     return a.dataset == b.dataset && a.field == b.field && a.timeStep == b.timeStep &&
            a.scale == b.scale && !a.interval && !b.interval && a.markers == b.markers;
