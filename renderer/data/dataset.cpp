@@ -32,13 +32,19 @@ private:
     std::vector<std::uint32_t> counts_;
 };
 
-/// Calls `visit(i)` for at most kMaxSamples evenly spread indices below `count`.
+/// Calls `visit(i)` for at most kMaxSamples indices below `count`, one in each of as many equal
+/// parts. Where in its part follows the golden ratio: equal steps would meet the same column of
+/// every row of voxels.
 template <class Visit>
 void visitSamples(std::size_t count, const Visit& visit) {
+    constexpr double kGoldenRatio = 0.6180339887498949;
     const std::size_t samples = std::min(count, kMaxSamples);
+    const double part = static_cast<double>(count) / static_cast<double>(samples);
     for (std::size_t s = 0; s < samples; ++s) {
-        visit(static_cast<std::size_t>(static_cast<double>(s) * static_cast<double>(count) /
-                                       static_cast<double>(samples)));
+        const double turns = static_cast<double>(s) * kGoldenRatio;
+        const double place = samples < count ? turns - std::floor(turns) : 0.0;
+        visit(
+            std::min(static_cast<std::size_t>((static_cast<double>(s) + place) * part), count - 1));
     }
 }
 

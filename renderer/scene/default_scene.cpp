@@ -2,25 +2,60 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
+#include <vector>
 
 namespace volcast::scene {
 namespace {
 
-/// Mean over the data of `of` (a value to a number); from the histogram. 1 where there is none.
-template <class Function>
-double mean(const data::FieldSummary& field, Function of) {
-    const std::size_t bins = field.histogram.size();
-    double sum = 0.0;
+/// A number that belongs to some of the data, and how much of it.
+struct Portion {
+    double number = 0.0;
     double count = 0.0;
+};
+
+/// `of` (a value to a number) over the data; from the histogram.
+template <class Function>
+std::vector<Portion> portions(const data::FieldSummary& field, Function of) {
+    const std::size_t bins = field.histogram.size();
+    std::vector<Portion> found;
     for (std::size_t i = 0; i < bins; ++i) {
         const double part = (static_cast<double>(i) + 0.5) / static_cast<double>(bins);
         const double value = std::lerp(static_cast<double>(field.range.min),
                                        static_cast<double>(field.range.max), part);
-        sum += field.histogram[i] * static_cast<double>(of(static_cast<float>(value)));
-        count += field.histogram[i];
+        found.push_back({.number = static_cast<double>(of(static_cast<float>(value))),
+                         .count = static_cast<double>(field.histogram[i])});
     }
+    return found;
+}
+
+double countOf(const std::vector<Portion>& all) {
+    return std::accumulate(all.begin(), all.end(), 0.0,
+                           [](double sum, const Portion& portion) { return sum + portion.count; });
+}
+
+/// 1 where there is no data.
+double mean(const std::vector<Portion>& all) {
+    double sum = 0.0;
+    for (const Portion& portion : all) sum += portion.number * portion.count;
+    const double count = countOf(all);
     return count > 0.0 ? sum / count : 1.0;
+}
+
+/// The mean on a ray through the middle of the densest body in the data. If a share p of the data,
+/// of the largest numbers, is one compact body, that takes the cube root of p of the ray. 1 where
+/// there is no data.
+double densest(std::vector<Portion> all) {
+    std::ranges::sort(all, std::ranges::greater{}, &Portion::number);
+    const double count = countOf(all);
+    double sum = 0.0, taken = 0.0, found = 0.0;
+    for (const Portion& portion : all) {
+        sum += portion.number * portion.count;
+        taken += portion.count;
+        if (taken > 0.0) found = std::max(found, sum / taken * std::cbrt(taken / count));
+    }
+    return count > 0.0 ? found : 1.0;
 }
 
 /// How far a ray runs through the data, world units: the side of a cube of the same size as the
@@ -40,8 +75,8 @@ double halfOpaqueLength(const data::Box& bounds, const data::FieldSummary& field
     constexpr double kMost = 0.5;
     const double min = field.range.min;
     const double width = static_cast<double>(field.range.max) - min;
-    const double fraction =
-        mean(field, [&](float value) { return width > 0.0 ? (value - min) / width : 0.5; });
+    const double fraction = mean(
+        portions(field, [&](float value) { return width > 0.0 ? (value - min) / width : 0.5; }));
     return 2.0 * std::log(2.0) * lengthThrough(bounds) * std::clamp(fraction, kLeast, kMost) /
            kDepth;
 }
@@ -66,13 +101,14 @@ void expose(Layer& layer, const data::DatasetSummary& summary) {
         second && !layer.densityMap.points.empty() ? layer.densityMap : layer.map;
     const double through = lengthThrough(summary.bounds);
     const double depth =
-        through * mean(g, [&](float value) { return data::evaluate(density, value).a; });
+        through *
+        densest(portions(g, [&](float value) { return data::evaluate(density, value).a; }));
     const double scale = kXrayDepth / depth;
     layer.extinctionScale = std::isfinite(scale) && scale < 1e30 ? static_cast<float>(scale) : 1.0F;
-    const double light = through * mean(*f, [&](float value) {
+    const double light = through * densest(portions(*f, [&](float value) {
                              const glm::vec4 colour = data::evaluate(layer.map, value);
                              return std::max({colour.r, colour.g, colour.b});
-                         });
+                         }));
     const double stops = std::log2(kSplatLight / light);
     layer.exposure = std::isfinite(stops)
                          ? static_cast<float>(std::clamp(stops, -kMostStops, kMostStops))

@@ -128,5 +128,28 @@ TEST(DatasetSummary, HistogramCountsEveryValueOfSmallData) {
     EXPECT_EQ(fields[0].histogram[255], 1U);
 }
 
+// 2^14 equal steps through rows of 2^k voxels would meet but one or a few columns.
+TEST(DatasetSummary, HistogramMeetsAllColumnsOfLargeData) {
+    constexpr int kSide = 128;
+    std::vector<float> values;
+    for (int i = 0; i < kSide * kSide * kSide; ++i) {
+        values.push_back(static_cast<float>(i % kSide));
+    }
+    VolumeInput input;
+    input.size = glm::ivec3(kSide);
+    input.channels.push_back({.name = "x", .unit = "", .voxels = bytesOf(values)});
+    const auto fields = summarize(buildVolume(input).value()).fields;
+    std::uint32_t counted = 0;
+    for (int quarter = 0; quarter < 4; ++quarter) {
+        std::uint32_t count = 0;
+        for (std::size_t i = 0; i < 64; ++i) {
+            count += fields[0].histogram[64 * static_cast<std::size_t>(quarter) + i];
+        }
+        EXPECT_NEAR(count, 1 << 12, 64) << quarter;
+        counted += count;
+    }
+    EXPECT_EQ(counted, 1U << 14);
+}
+
 }  // namespace
 }  // namespace volcast::data

@@ -37,7 +37,7 @@ TEST(DefaultScene, ShowsOneLevelInTheMiddleOfTheRange) {
     EXPECT_EQ(layer.levels.values, std::vector<float>{1.0F});
 }
 
-TEST(DefaultScene, ExposesXrayAndSplatByTheMeansOfTheMap) {
+TEST(DefaultScene, ExposesXrayAndSplatByTheMapOverTheData) {
     const data::DatasetSummary summary = cube();
     Layer layer = defaultLayer("data", summary, "f", RayModel::kXray);
     layer.map.points = {{.value = 0.0F, .colour = {0.5F, 0.25F, 0.0F}, .extinction = 2.0F}};
@@ -45,6 +45,17 @@ TEST(DefaultScene, ExposesXrayAndSplatByTheMeansOfTheMap) {
     // Depth through the cube: 2 * 3; the aim is 1.5. Rounded to float once, tables not involved.
     EXPECT_FLOAT_EQ(layer.extinctionScale, 0.25F);
     EXPECT_FLOAT_EQ(layer.exposure, std::log2(0.7F / (0.5F * 3.0F)));
+}
+
+TEST(DefaultScene, ExposesForTheDensestBodyInEmptySpace) {
+    const data::DatasetSummary summary = cube();
+    Layer layer = defaultLayer("data", summary, "f", RayModel::kXray);
+    // 1/64 of the data, the top 4 of 256 bins: as a cube it has 1/4 of the side.
+    layer.map.points = {{.value = 2.9375F, .colour = glm::vec3(0.0F), .extinction = 0.0F},
+                        {.value = 2.9375F, .colour = {0.0F, 2.0F, 0.0F}, .extinction = 8.0F}};
+    expose(layer, summary);
+    EXPECT_FLOAT_EQ(layer.extinctionScale, 1.5F / (8.0F * 0.25F * 3.0F));
+    EXPECT_FLOAT_EQ(layer.exposure, std::log2(0.7F / (2.0F * 0.25F * 3.0F)));
 }
 
 TEST(DefaultScene, AMapThatShowsNothingKeepsTheNeutralExposure) {
