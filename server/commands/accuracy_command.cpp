@@ -212,7 +212,7 @@ void addAccuracyCommand(CLI::App& app, int& exitCode) {
         "reference's rays meet; steps per ray are what the walk's shader took (a cell crossed, "
         "one\n"
         "more part of a split piece, the search for entries where a mesh is not convex); cells\n"
-        "drawn are the projection's.\n"
+        "drawn are the projection's: of isosurfaces one for each level that a cell meets.\n"
         "Exit code: 0 done, 1 failed, 2 wrong options.");
     addOptions(*command, *options);
     command->callback([options, &exitCode] { exitCode = run(*options); });
