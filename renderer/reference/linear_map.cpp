@@ -33,7 +33,8 @@ void LinearMap::addBends(double from, double to, std::vector<double>& shares) co
 
 glm::dvec4 LinearMap::largest(double low, double high) const {
     glm::dvec4 largest = glm::max(at(low), at(high));
-    for (auto k = std::ranges::lower_bound(values_, low); k != values_.end() && *k <= high; ++k) {
+    // What a step at `low` comes from is not met on the way up from there.
+    for (auto k = std::ranges::upper_bound(values_, low); k != values_.end() && *k <= high; ++k) {
         largest = glm::max(largest, matter_[static_cast<std::size_t>(k - values_.begin())]);
     }
     return largest;

@@ -27,6 +27,7 @@ public:
     /// Adds the shares in (0, 1) of the way from `from` to `to` at which the map bends or steps.
     void addBends(double from, double to, std::vector<double>& shares) const;
     /// The largest red, green, blue and extinction over [low, high]: ends and all points between.
+    /// Of a step within both sides count, at `low` the upper one.
     [[nodiscard]] glm::dvec4 largest(double low, double high) const;
 
 private:

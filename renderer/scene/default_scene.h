@@ -16,8 +16,8 @@ Scene defaultScene(const std::string& datasetId, const data::DatasetSummary& sum
 Layer defaultLayer(const std::string& datasetId, const data::DatasetSummary& summary,
                    const std::string& field, RayModel model);
 
-/// Sets `extinctionScale` and `exposure` for the layer's fields and maps so that the densest body in
-/// the data drowns xray and splat neither in black nor in white.
+/// Sets `extinctionScale` and `exposure` for the layer's fields and maps so that the densest body
+/// in the data drowns xray and splat neither in black nor in white.
 void expose(Layer& layer, const data::DatasetSummary& summary);
 
 }  // namespace volcast::scene

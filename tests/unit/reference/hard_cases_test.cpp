@@ -66,6 +66,11 @@ TEST(HardCases, LargestColourIsThatOfPointsBetween) {
     const LinearMap narrow =
         mapOf({{0, 0, 0}, {0.49F, 0, 0}, {0.5F, 1, 0}, {0.51F, 0, 0}, {1, 0, 0}});
     EXPECT_EQ(largest(narrow, 0, 1), 1.0);
+    // What a step comes down from counts where it is passed, and not where values begin on it.
+    const LinearMap cliff = mapOf({{0, 1, 0}, {5, 1, 0}, {5, 0.25F, 0}, {10, 0, 0}});
+    EXPECT_EQ(largest(cliff, 4, 6), 1.0);
+    EXPECT_EQ(largest(cliff, 4, 5), 1.0);
+    EXPECT_EQ(largest(cliff, 5, 6), 0.25);
 }
 
 TEST(HardCases, MeansOfAPiecewiseLinearMap) {
