@@ -1,10 +1,10 @@
 #include "renderer/mesh/camera_vertices.h"
 
-#include <algorithm>
 #include <span>
 
 #include <epoxy/gl.h>
 
+#include "renderer/mesh/dispatch.h"
 #include "renderer/mesh/locate.h"
 #include "renderer/mesh/mesh_buffers.h"
 #include "renderer/mesh/shared.h"
@@ -88,11 +88,7 @@ Result<void> CameraVertices::transform(const DrawInputs& inputs, bool carried) {
     mesh.positions.bindTexels(shared::kPositionUnit);
     if (carried) FieldBuffer::of(*inputs.field).values.bindTexels(shared::kFieldUnit);
     vertices_.bindStorage(shared::kVertexStorage);
-    constexpr unsigned kGroupSize = 128;  // As in the shader.
-    constexpr unsigned kGroupsAcross = 16384;
-    const unsigned groups = (static_cast<unsigned>(mesh.vertexCount) + kGroupSize - 1) / kGroupSize;
-    inputs.device->dispatch(std::min(groups, kGroupsAcross),
-                            (groups + kGroupsAcross - 1) / kGroupsAcross, 1);
+    dispatchEach(*inputs.device, mesh.vertexCount);
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
     return inputs.device->check("camera space vertices");
 }

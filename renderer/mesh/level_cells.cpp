@@ -1,11 +1,11 @@
 #include "renderer/mesh/level_cells.h"
 
-#include <algorithm>
 #include <limits>
 #include <string>
 
 #include <epoxy/gl.h>
 
+#include "renderer/mesh/dispatch.h"
 #include "renderer/mesh/mesh_buffers.h"
 #include "renderer/mesh/shared.h"
 
@@ -13,8 +13,6 @@ namespace volcast::mesh {
 namespace {
 
 constexpr std::size_t kPairBytes = 2 * sizeof(std::int32_t);
-constexpr unsigned kGroupSize = 128;  // As in the shader.
-constexpr unsigned kGroupsAcross = 16384;
 
 Result<void> makeList(gpu::Device& device, gpu::Buffer& list, std::size_t pairs) {
     if (list.valid() && list.bytes() == pairs * kPairBytes) return {};
@@ -83,10 +81,7 @@ Result<std::uint32_t> LevelCells::list(const DrawInputs& inputs, const gpu::Buff
     std::uint32_t count = 0;
     glClearNamedBufferData(found_.name(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &count);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
-    const auto cells = static_cast<unsigned>(MeshBuffers::of(*inputs.meshGpu).cellCount);
-    const unsigned groups = (cells + kGroupSize - 1) / kGroupSize;
-    inputs.device->dispatch(std::min(groups, kGroupsAcross),
-                            (groups + kGroupsAcross - 1) / kGroupsAcross, 1);
+    dispatchEach(*inputs.device, MeshBuffers::of(*inputs.meshGpu).cellCount);
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
     glGetNamedBufferSubData(found_.name(), 0, sizeof(count), &count);
     if (auto done = inputs.device->check("cells that meet levels"); !done) return done.error();

@@ -56,7 +56,8 @@ void drawCells(const DrawInputs& inputs, const gpu::Program& program, const Comb
 }
 
 /// Draws what levels cut out of cells into the picture.
-Result<void> drawLevels(const DrawInputs& inputs, ProjectionCache& cache) {
+Result<void> drawLevels(const DrawInputs& inputs, const CombineState& combine,
+                        ProjectionCache& cache) {
     const LevelTraits traits{.valuesAt = valuesAt(inputs.field),
                              .densityAt = valuesAt(inputs.density),
                              .lit = inputs.plan->has(plan::kGradient),
@@ -65,7 +66,7 @@ Result<void> drawLevels(const DrawInputs& inputs, ProjectionCache& cache) {
     const auto program = inputs.programs->ray(levelRecipe(traits, inputs.constants), kLevelVertex);
     if (!program) return program.error();
     if (auto done = cache.prepareLevels(inputs); !done) return done;
-    inputs.target->begin({.depth = gpu::DepthTest::kNearest});
+    inputs.target->begin({.blend = combine.blend, .depth = combine.depth});
     (*program)->use();
     cache.bind(inputs);
     cache.levels().bind();
@@ -126,7 +127,7 @@ std::unique_ptr<ProjectionState> ProjectionState::create() {
 Result<void> drawProjection(const DrawInputs& inputs, ProjectionState& state) {
     ProjectionCache& cache = ProjectionCache::of(state);
     const CombineState& combine = stateOf(scene::row(inputs.layer->model).combine);
-    if (combine.combine == scene::Combine::kNearest) return drawLevels(inputs, cache);
+    if (combine.combine == scene::Combine::kNearest) return drawLevels(inputs, combine, cache);
     const ProjectionTraits traits = traitsOf(inputs);
     const auto cells =
         inputs.programs->ray(projectionRecipe(traits, inputs.constants), kProjectionVertex);

@@ -28,7 +28,9 @@ bool splitsPieces(const WalkTraits& traits) {
 // convex, its 8 rays go through the same rounds; entries of lists they may take one after the
 // other. A round is one cell; where pieces are split it has loops of its own.
 constexpr int kMostIterations = 65'000;
-constexpr int kIterationsOfSplits = 1 + 16 + 8;  // kCellsARound and kPartsARound of the shader.
+constexpr int kCellsARound = 16;
+constexpr int kPartsARound = 8;
+constexpr int kIterationsOfSplits = 1 + kCellsARound + kPartsARound;
 constexpr int kRays = 8;
 constexpr int kMaxDraws = 16'384;  // Of one picture; 6 million cells on a ray at least.
 
@@ -129,6 +131,8 @@ shading::Recipe walkRecipe(const WalkTraits& traits, std::vector<shading::Consta
                       {"kEarlyStop", traits.earlyStop},
                       {"kMaxRounds", maxRounds(traits.convex, splitsPieces(traits))},
                       {"kSplits", splitsPieces(traits)},
+                      {"kCellsARound", kCellsARound},
+                      {"kPartsARound", kPartsARound},
                       {"kCounts", traits.counts},
                       {"kResumes", traits.resumes},
                       {"kPsiTableSide", shading::kPsiTableSide},

@@ -62,10 +62,6 @@ bool varies(const FieldSummary* field) {
     return field != nullptr && field->association != data::Association::kCell;
 }
 
-/// How far tricubic values may leave the range of the voxels they come from, as a part of it:
-/// derived in shaders/volume/march_ray.glsl.
-constexpr float kTricubicOvershoot = 0.48F;
-
 /// Smallest and largest extinction on any ray.
 data::Range extinctionOf(const Matter& matter) {
     const bool own = !matter.maps.density.points.empty();
@@ -311,7 +307,7 @@ void planBricks(LayerPlan& plan, const Matter& matter) {
         std::max({intervals.x, intervals.y, intervals.z}) > data::Volume::kBrickSize;
     if (!several) {
         add(plan, kEmptyBricks, false, "the volume is a single brick");
-    } else if (matter.layer.interval && matter.layer.model != RayModel::kIsosurface) {
+    } else if (plan.has(kInterval)) {
         add(plan, kEmptyBricks, true, "a brick without values in the interval is passed over");
     } else if (!absorbs(matter.layer.model)) {
         const std::string reason = reasonToPassOver(matter.layer.model);

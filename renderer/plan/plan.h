@@ -52,6 +52,10 @@ struct FramePlan {
 /// iterations without a word; what is left is for passing over bricks.
 inline constexpr int kMaxRaySamples = 60'000;
 
+/// How far tricubic values may leave the range of the voxels they come from, as a part of it:
+/// derived in shaders/volume/march_ray.glsl.
+inline constexpr float kTricubicOvershoot = 0.48F;
+
 /// `scene` must be valid against `summaries`. `evidence` decides where the scene bounds error or
 /// time.
 FramePlan plan(const scene::Scene& scene, const scene::Summaries& summaries,

@@ -66,11 +66,6 @@ bool isProjected(const LayerDraw& draw) {
            draw.plan->evaluator == plan::Evaluator::kMeshProjectionFaces;
 }
 
-/// The cells that are drawn of a layer's mesh.
-const data::Mesh& meshOf(const LayerDraw& draw) {
-    return draw.part->mesh(std::get<data::Mesh>(draw.dataset->data()));
-}
-
 /// The orders of layers that need one, as last drawn.
 std::vector<LayerOrder> ordersOf(const Frame& frame) {
     std::vector<LayerOrder> orders;
@@ -428,7 +423,7 @@ Result<void> DeviceRenderer::drawLayer(const Frame& frame, const LayerDraw& draw
     const mesh::DrawInputs inputs{
         .device = &device_,
         .programs = &programs_,
-        .mesh = &meshOf(draw),
+        .mesh = &draw.part->mesh(std::get<data::Mesh>(draw.dataset->data())),
         .meshGpu = draw.part->gpu.get(),
         .field = draw.field,
         .density = draw.density,

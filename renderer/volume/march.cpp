@@ -29,7 +29,6 @@ MarchTraits traitsOf(const DrawInputs& inputs) {
 shading::Recipe marchRecipe(const MarchTraits& traits, std::vector<shading::Constant> constants) {
     const scene::RayModelRow& row = scene::row(traits.model);
     const scene::IntegratorRow* integrator = scene::integratorRow(traits.model, traits.integrator);
-    // Of an isosurface the interval has left out levels.
     constants.insert(constants.end(), {{"kSampling", static_cast<int>(traits.sampling)},
                                        {"kFilterInHardware", traits.filterInHardware},
                                        {"kPieces", row.opaque},
@@ -37,9 +36,10 @@ shading::Recipe marchRecipe(const MarchTraits& traits, std::vector<shading::Cons
                                        {"kEarlyStop", traits.earlyStop},
                                        {"kLit", traits.lit},
                                        {"kShaded", traits.shaded},
-                                       {"kInterval", traits.interval && !row.opaque},
+                                       {"kInterval", traits.interval},
                                        {"kClipPlanes", traits.clipPlanes},
                                        {"kClipsAtStart", true},
+                                       {"kTricubicOvershoot", plan::kTricubicOvershoot},
                                        {"kBrickSize", data::Volume::kBrickSize},
                                        {"kMaxRaySamples", plan::kMaxRaySamples}});
     std::string segment{integrator == nullptr ? "" : integrator->chunk};

@@ -12,6 +12,19 @@ ivec4 ranksOf(ivec4 ids) {
            ivec4(lessThan(ids.zzzz, ids)) + ivec4(lessThan(ids.wwww, ids));
 }
 
+// The gradient of a field in a cell, of any length: u, v, w lead from one corner to the others, `rise`
+// is what the field gains there. Scaled, so that products of cells and values of any size stay in
+// range.
+vec3 gradientAlong(vec3 u, vec3 v, vec3 w, vec3 rise) {
+    vec3 size = max(max(abs(u), abs(v)), abs(w));
+    float scale = 1.0 / max(max(size.x, size.y), max(size.z, 1.0e-37));
+    u *= scale;
+    v *= scale;
+    w *= scale;
+    rise /= max(max(abs(rise.x), abs(rise.y)), max(abs(rise.z), 1.0e-37));
+    return rise.x * cross(v, w) + rise.y * cross(w, u) + rise.z * cross(u, v);
+}
+
 // What a field whose values sit at `valuesAt` gives at the vertices `ids` of `cell`.
 vec4 cornerValues(samplerBuffer values, int valuesAt, int cell, ivec4 ids) {
     if (valuesAt == kValuesAtVertices) {

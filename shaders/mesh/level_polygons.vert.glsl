@@ -76,22 +76,10 @@ vec4 pointOn(Cell cell, int from, int to, float level, out ivec2 edge) {
     return point;
 }
 
-// Scaled, so that products of cells and values of any size stay in range.
-vec3 scaled(vec3 v) {
-    return v / max(max(abs(v.x), abs(v.y)), max(abs(v.z), 1.0e-37));
-}
-
 vec3 gradientIn(Cell cell) {
-    vec3 u = cell.at[0] - cell.at[3];
-    vec3 v = cell.at[1] - cell.at[3];
-    vec3 w = cell.at[2] - cell.at[3];
-    vec3 size = max(max(abs(u), abs(v)), abs(w));
-    float scale = 1.0 / max(max(size.x, size.y), max(size.z, 1.0e-37));
-    u *= scale;
-    v *= scale;
-    w *= scale;
-    vec3 rise = scaled(cell.f.xyz - cell.f.w);
-    return scaled(rise.x * cross(v, w) + rise.y * cross(w, u) + rise.z * cross(u, v));
+    vec3 found = gradientAlong(cell.at[0] - cell.at[3], cell.at[1] - cell.at[3],
+                               cell.at[2] - cell.at[3], cell.f.xyz - cell.f.w);
+    return found / max(max(abs(found.x), abs(found.y)), max(abs(found.z), 1.0e-37));
 }
 
 void main() {

@@ -49,15 +49,7 @@ float facingIn(Corner a, Corner b, Corner c, Corner q, CellValues values, vec2 s
     vec3 u = vec3(a.at, a.depth) - origin;
     vec3 v = vec3(b.at, b.depth) - origin;
     vec3 w = vec3(c.at, c.depth) - origin;
-    // Scaled, so that products of cells and values of any size stay in range.
-    vec3 size = max(max(abs(u), abs(v)), abs(w));
-    float scale = 1.0 / max(max(size.x, size.y), max(size.z, 1.0e-37));
-    u *= scale;
-    v *= scale;
-    w *= scale;
-    vec3 rise = values.front - values.apex;
-    rise /= max(max(abs(rise.x), abs(rise.y)), max(abs(rise.z), 1.0e-37));
-    vec3 sheared = rise.x * cross(v, w) + rise.y * cross(w, u) + rise.z * cross(u, v);
+    vec3 sheared = gradientAlong(u, v, w, values.front - values.apex);
     vec3 gradient = vec3(sheared.xy, sheared.z - dot(slope, sheared.xy));
     float length2 = dot(gradient, gradient) * (1.0 + dot(slope, slope));
     return length2 > 0.0 ? min(abs(sheared.z) * inversesqrt(length2), 1.0) : 0.0;

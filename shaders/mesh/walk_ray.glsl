@@ -15,7 +15,7 @@
 // Constants: kValuesAt, kDensityAt; kListed: pixels have lists of entries (the mesh is not convex);
 // kContinuous: a piece's front values are the back values of the one before; those of
 // mesh/trim.glsl; kEarlyStop: the model may end a ray; kSplits: pieces are taken in parts;
-// kMaxRounds: a draw; kCounts: rays that need more are counted; kResumes: they go on from where the
+// kMaxRounds: a draw; kCellsARound, kPartsARound; kCounts: rays that need more are counted; kResumes: they go on from where the
 // last draw left them; kCountsSteps; kLit.
 // Source of the perturbation: H. Edelsbrunner, E. Muecke, Simulation of Simplicity, ACM TOG 9(1),
 // 1990.
@@ -119,6 +119,7 @@ const bool kMayBeEmpty = kCutsFront || kCutsBack || kInterval;
 
 // Hands the model a part of `rest`. True: the ray is at its end.
 bool gather(inout RayState state, inout Segment rest, Walk walk, Line line) {
+    if (kCountsSteps) ++stepsTaken;
     bool ended = false;
     if (!kMayBeEmpty || rest.extent >= 0.0) ended = stepRay(state, rest) && kEarlyStop;
     bool past = kCutsBack && walk.depth * line.worldPerDepth >= line.window.end;
@@ -132,9 +133,6 @@ bool stepOn(inout Walk walk, inout RayState state, inout Segment rest, Line line
     return gather(state, rest, walk, line);
 }
 
-const int kCellsARound = 16;
-const int kPartsARound = 8;
-
 bool crossInRounds(inout Walk walk, inout RayState state, inout Segment rest, inout int rounds,
                    Line line) {
     bool ended = false;
@@ -146,7 +144,6 @@ bool crossInRounds(inout Walk walk, inout RayState state, inout Segment rest, in
             if (cells > 0) {
                 --cells;
                 ended = stepOn(walk, state, rest, line);
-                if (kCountsSteps) ++stepsTaken;
             }
         } while (cells > 0 && walk.cell >= 0 && rest.extent < 0.0 && !ended);
         wholePieces = false;
@@ -154,7 +151,6 @@ bool crossInRounds(inout Walk walk, inout RayState state, inout Segment rest, in
         do {
             if (rest.extent >= 0.0 && !ended) {
                 ended = gather(state, rest, walk, line);
-                if (kCountsSteps) ++stepsTaken;
             }
             --parts;
         } while (parts > 0 && rest.extent >= 0.0 && !ended);
@@ -171,7 +167,6 @@ bool crossCells(inout Walk walk, inout RayState state, inout Segment rest, inout
     while (walk.cell >= 0 && !ended && rounds > 0) {
         --rounds;
         ended = stepOn(walk, state, rest, line);
-        if (kCountsSteps) ++stepsTaken;
     }
     return ended;
 }

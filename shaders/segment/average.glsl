@@ -2,12 +2,9 @@
 // Emission is the colour times the extinction, so a piece of opacity a adds a C.
 // Uses: classify.
 #include "lib/map_cursor.glsl"
-#include "lib/opacity.glsl"
+#include "lib/mean_matter.glsl"
 
 vec4 integrateSegment(inout MapCursor cursor, inout Segment rest) {
-    vec4 matter = matterAt(0.5 * (rest.front + rest.back),
-                           0.5 * (rest.densityFront + rest.densityBack));
-    float opacity = opacityOf(matter.a * rest.extent);
-    rest.extent = -1.0;
-    return vec4(matter.rgb * opacity, opacity);
+    vec4 mean = takeMean(rest);
+    return vec4(mean.rgb * mean.a, mean.a);
 }

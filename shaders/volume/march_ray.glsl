@@ -7,8 +7,8 @@
 // that the hit is less than dt / 2^kHalvings from a point where the field has the level's value: it
 // is on different sides at both ends of what is left. A line through these ends gives the hit. A
 // field that crosses a level and comes back within one step is not seen to do so.
-// Constants: kPieces, kSkipBricks, kEarlyStop, kMaxRaySamples, kBrickSize; kInterval: only values
-// in an interval count; kLit: levels are lit from the eye; kShaded: samples are by layer.light;
+// Constants: kPieces, kSkipBricks, kEarlyStop, kMaxRaySamples, kBrickSize, kTricubicOvershoot;
+// kInterval: only values in an interval count; kLit: levels are lit from the eye; kShaded: samples are by layer.light;
 // those of lib/window.glsl and volume/voxels.glsl.
 // Uses: classify through the model; segment through the model.
 #include "lib/box.glsl"
@@ -77,11 +77,12 @@ vec2 planeRange(ivec3 brick) {
 // around. Along an axis the weights below 0 add up to -t (1 - t) / 2, so that all their sizes do to
 // 1 + t (1 - t) <= 5/4; along three to 125/64. All weights add up to 1: those below 0 to -N and
 // those above to 1 + N with 1 + 2 N <= 125/64, N <= 61/128. Values are then between
-// low - N (high - low) and high + N (high - low); 0.48 is more than N by more than all rounding.
+// low - N (high - low) and high + N (high - low); kTricubicOvershoot, 0.48, is more than N by more
+// than all rounding.
 vec2 tricubicRange(ivec3 brick) {
     ivec3 next = ivec3(0, 0, 1);
     vec2 range = rangeOf(planeRange(brick - next), planeRange(brick), planeRange(brick + next));
-    float overshoot = 0.48 * (range.y - range.x);
+    float overshoot = kTricubicOvershoot * (range.y - range.x);
     return range + vec2(-overshoot, overshoot);
 }
 
