@@ -15,6 +15,9 @@ enum class Evaluator {
     kMeshProjectionFaces,  ///< Cells by all their faces.
     kMeshRaster,           ///< Boundary faces as triangles.
     kVolumeMarch,
+    kVolumeSlices,          ///< Polygons across the view, one draw each.
+    kVolumeSliceInstances,  ///< The same as instances of one polygon.
+    kCrossSections,         ///< Planes through voxels.
 };
 
 /// One effect, on or off, and why.

@@ -68,6 +68,18 @@ glm::vec4 gather(const Layer& layer, const data::DatasetSummary& summary) {
     return numbers;
 }
 
+/// Where the planes meet, in grid coordinates, and which of them are shown.
+glm::vec4 sections(const CrossSections& planes, const data::Volume& volume) {
+    const glm::dvec3 last(volume.size - 1);
+    const glm::dvec3 meet =
+        planes.point
+            ? (glm::transpose(volume.direction) * (*planes.point - volume.origin)) / volume.spacing
+            : 0.5 * last;
+    const int shown =
+        (planes.shown.x ? 1 : 0) + (planes.shown.y ? 2 : 0) + (planes.shown.z ? 4 : 0);
+    return vector(glm::clamp(meet, glm::dvec3(0.0), last), shown);
+}
+
 }  // namespace
 
 DepthRange depthRange(const Camera& camera, std::span<const data::Box> boxes) {
@@ -115,6 +127,7 @@ LayerBlock layerBlock(PictureSize size, const DepthRange& depths, const Scene& s
     block.clipFromData = clipFromData(camera, axes, half, depths, eye);
     block.gridFromData = volume != nullptr ? gridFromData(*volume) : glm::mat4(1.0F);
     block.grid = volume != nullptr ? glm::vec4(glm::vec3(volume->size), stepWorld) : glm::vec4(0);
+    if (volume != nullptr) block.sections = sections(layer.crossSections, *volume);
     block.surfaceColour = glm::vec4(layer.surfaceColour, 1.0F);
     block.edge = glm::vec4(layer.edgeColour, layer.edgeWidth);
     block.gather = gather(layer, summary);

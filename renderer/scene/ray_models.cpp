@@ -45,7 +45,9 @@ constexpr std::array kRayModels{
     RayModelRow{RayModel::kIsosurface, "isosurface", "model/isosurface.glsl", true,
                 Combine::kNearest, true, true, true, kNoChoice},
     RayModelRow{RayModel::kVolume, "volume", "model/volume.glsl", false, Combine::kUnder, true,
-                true, true, kVolumeIntegrators}};
+                true, true, kVolumeIntegrators},
+    RayModelRow{RayModel::kCrossSections, "cross_sections", "", true, Combine::kNearest, false,
+                false, true, kNoChoice}};
 
 struct EvaluatorName {
     MeshEvaluator evaluator;
@@ -57,6 +59,8 @@ constexpr std::array kEvaluators{
     EvaluatorName{MeshEvaluator::kProjectionFaces, "projection_faces"}};
 
 constexpr std::array<std::string_view, 3> kSamplings{"nearest", "trilinear", "tricubic"};
+constexpr std::array<std::string_view, 4> kVoxelEvaluators{"auto", "march", "slices",
+                                                           "slice_instances"};
 
 constexpr std::array kAllIntegrators{std::span<const IntegratorRow>{kVolumeIntegrators},
                                      std::span<const IntegratorRow>{kLineIntegrators}};
@@ -93,6 +97,10 @@ std::string_view name(Sampling sampling) {
     return kSamplings.at(static_cast<std::size_t>(sampling));
 }
 
+std::string_view name(VoxelEvaluator evaluator) {
+    return kVoxelEvaluators.at(static_cast<std::size_t>(evaluator));
+}
+
 std::optional<RayModel> rayModelNamed(std::string_view name) {
     const auto found = std::ranges::find(kRayModels, name, &RayModelRow::name);
     if (found == kRayModels.end()) return std::nullopt;
@@ -118,6 +126,12 @@ std::optional<Sampling> samplingNamed(std::string_view name) {
     const auto found = std::ranges::find(kSamplings, name);
     if (found == kSamplings.end()) return std::nullopt;
     return static_cast<Sampling>(found - kSamplings.begin());
+}
+
+std::optional<VoxelEvaluator> voxelEvaluatorNamed(std::string_view name) {
+    const auto found = std::ranges::find(kVoxelEvaluators, name);
+    if (found == kVoxelEvaluators.end()) return std::nullopt;
+    return static_cast<VoxelEvaluator>(found - kVoxelEvaluators.begin());
 }
 
 const IntegratorRow* integratorRow(RayModel model, Integrator integrator) {

@@ -31,7 +31,7 @@ enum class Combine {
 struct RayModelRow {
     RayModel model;
     std::string_view name;   ///< As in plans, in the protocol and on the command line.
-    std::string_view chunk;  ///< Fills the slot `model`; empty: drawn as triangles, not by rays.
+    std::string_view chunk;  ///< Fills the slot `model`; empty: not gathered along rays: faces, planes.
     bool opaque;             ///< Ends the rays of layers that are not.
     Combine combine;
     bool secondField;  ///< A second field has a meaning.
@@ -53,12 +53,15 @@ std::string_view name(MeshEvaluator evaluator);
 
 /// "nearest", "trilinear", "tricubic".
 std::string_view name(Sampling sampling);
+/// "auto", "march", "slices", "slice_instances".
+std::string_view name(VoxelEvaluator evaluator);
 
 /// Nothing for a name that is not known.
 std::optional<RayModel> rayModelNamed(std::string_view name);
 std::optional<Integrator> integratorNamed(std::string_view name);
 std::optional<MeshEvaluator> evaluatorNamed(std::string_view name);
 std::optional<Sampling> samplingNamed(std::string_view name);
+std::optional<VoxelEvaluator> voxelEvaluatorNamed(std::string_view name);
 
 /// The row of `integrator` among those that serve `model`, or null.
 const IntegratorRow* integratorRow(RayModel model, Integrator integrator);

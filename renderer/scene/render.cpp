@@ -5,14 +5,12 @@
 
 #include "renderer/gpu/timer.h"
 #include "renderer/plan/effects.h"
-#include "renderer/scene/dataset_cache.h"
+#include "renderer/scene/frame_report.h"
 #include "renderer/scene/layer_content.h"
-#include "renderer/scene/layer_fields.h"
+#include "renderer/scene/layer_draw.h"
 #include "renderer/scene/ray_models.h"
 #include "renderer/scene/scene_diff.h"
 #include "renderer/scene/validate.h"
-#include "renderer/scene/view.h"
-#include "renderer/shading/psi_table.h"
 
 namespace volcast::scene {
 namespace {
@@ -32,82 +30,6 @@ Counters operator-(const Counters& after, const Counters& before) {
             .framesDrawn = after.framesDrawn - before.framesDrawn};
 }
 
-/// One layer that is drawn, and all its draw needs.
-struct LayerDraw {
-    std::size_t index = 0;  ///< In the scene.
-    const Layer* layer = nullptr;
-    const plan::LayerPlan* plan = nullptr;
-    CachedDataset* dataset = nullptr;
-    LayerState* state = nullptr;
-    const MeshPart* part = nullptr;  // Of a mesh.
-    const mesh::FieldGpu* field = nullptr;
-    const mesh::FieldGpu* density = nullptr;
-    const volume::ChannelGpu* channel = nullptr;
-    std::vector<float> levels;  // Of an isosurface.
-    std::vector<shading::Constant> constants;
-};
-
-/// One call of render(), from validation to pixels.
-struct Frame {
-    View* view = nullptr;
-    const Scene* scene = nullptr;
-    PictureSize size{0};
-    const plan::FramePlan* plan = nullptr;
-    std::vector<LayerDraw> draws;
-    std::map<std::string, std::uint64_t> generations;
-    Picture* picture = nullptr;
-    DepthRange depths;
-    std::uint64_t cameraVersion = 0;
-    bool countsSteps = false;
-};
-
-bool isProjected(const LayerDraw& draw) {
-    return draw.plan->evaluator == plan::Evaluator::kMeshProjection ||
-           draw.plan->evaluator == plan::Evaluator::kMeshProjectionFaces;
-}
-
-/// The orders of layers that need one, as last drawn.
-std::vector<LayerOrder> ordersOf(const Frame& frame) {
-    std::vector<LayerOrder> orders;
-    for (const LayerDraw& draw : frame.draws) {
-        const mesh::OrderReport report = frame.view->layers[draw.layer->id].projection->order();
-        if (report.cells > 0) orders.push_back({.layer = draw.layer->id, .report = report});
-    }
-    return orders;
-}
-
-std::vector<LayerSteps> stepsOf(const Frame& frame) {
-    std::vector<LayerSteps> steps;
-    for (const LayerDraw& draw : frame.draws) {
-        const bool cells = draw.part != nullptr && draw.part->gpu != nullptr &&
-                           draw.plan->evaluator != plan::Evaluator::kMeshRaster;
-        if (!cells) continue;
-        LayerSteps& one = steps.emplace_back(LayerSteps{.layer = draw.layer->id});
-        if (isProjected(draw)) {
-            one.cellsDrawn = draw.state->projection->cellsDrawn();
-        } else {
-            one.walkSteps = draw.state->walk->steps();
-        }
-    }
-    return steps;
-}
-
-/// How cells were put in order becomes a part of why they were.
-void tellOrder(const LayerOrder& order, plan::FramePlan& frame) {
-    const auto layer = std::ranges::find(frame.layers, order.layer, &plan::LayerPlan::layer);
-    const auto effect =
-        std::ranges::find(layer->effects, plan::kVisibilityOrder, &plan::Effect::name);
-    const mesh::OrderReport& report = order.report;
-    effect->reason +=
-        std::string{"; sorted by "} + (report.byPowerDistance ? "power distance" : "centroid") +
-        ": " + std::to_string(report.sortViolations) + " pairs of neighbours came out wrong, " +
-        std::to_string(report.orderViolations) + " are left";
-}
-
-bool isOpaque(const LayerDraw& draw) {
-    return row(draw.layer->model).opaque;
-}
-
 Result<void> checkTarget(PictureSize size, const FrameTarget& target) {
     const std::size_t values = static_cast<std::size_t>(size.x) * size.y * 4;
     for (const std::size_t given : {target.rgba8.size(), target.rgba32f.size()}) {
@@ -122,12 +44,15 @@ Result<void> checkTarget(PictureSize size, const FrameTarget& target) {
 class DeviceRenderer final : public Renderer {
 public:
     DeviceRenderer(gpu::Device& device, const shading::ChunkSource& chunks)
-        : device_{device}, programs_{device, chunks} {}
+        : device_{device}, programs_{device, chunks} {
+        context_.device = &device_;
+        context_.programs = &programs_;
+    }
 
     Result<void> open() {
         const Result<bool> exact = volume::filtersExactly(device_, programs_);
         if (!exact) return exact.error();
-        filterInHardware_ = *exact;
+        context_.filterInHardware = *exact;
         return device_.check("the filter probe");
     }
 
@@ -152,7 +77,6 @@ private:
     [[nodiscard]] Work workFor(const Frame& frame) const;
     Result<void> prepare(Frame& frame);
     Result<void> prepareLayer(Frame& frame, LayerDraw& draw);
-    Result<void> preparePsiTable();
     Result<void> sendBlocks(Frame& frame);
     Result<void> drawLayers(const Frame& frame);
     Result<void> drawLayer(const Frame& frame, const LayerDraw& draw);
@@ -163,12 +87,10 @@ private:
 
     gpu::Device& device_;
     shading::ProgramCache programs_;
-    bool filterInHardware_ = false;
-    gpu::Buffer psiTable_;  // Made when first asked for.
+    DrawContext context_;
     std::map<std::string, std::unique_ptr<CachedDataset>> datasets_;
     std::map<std::uint64_t, View> views_;
     std::uint64_t generation_ = 0;
-    std::uint64_t frame_ = 0;
     Counters counters_;
 };
 
@@ -204,7 +126,7 @@ Result<FrameInfo> DeviceRenderer::render(std::uint64_t view, const Scene& scene,
     frame.size = size;
     frame.plan = &info.plan;
     frame.countsSteps = target.countsSteps;
-    ++frame_;
+    ++context_.frame;
     for (std::size_t i = 0; i < scene.layers.size(); ++i) {
         const Layer& layer = scene.layers[i];
         CachedDataset& dataset = *datasets_.at(layer.dataset);
@@ -332,42 +254,8 @@ Result<void> DeviceRenderer::prepareLayer(Frame& frame, LayerDraw& draw) {
         const std::vector<shading::Constant> constants = state.map.constants();
         draw.constants.insert(draw.constants.end(), constants.begin(), constants.end());
     }
-    if (!draw.dataset->summary().isMesh) {
-        const Result<const volume::ChannelGpu*> channel =
-            draw.dataset->channel(device_, *draw.layer, frame_);
-        if (!channel) return channel.error();
-        draw.channel = *channel;
-        return {};
-    }
-    const auto part = draw.dataset->part(device_, *draw.layer, frame_);
-    if (!part) return part.error();
-    draw.part = *part;
-    if (draw.plan->method == Integrator::kPsiTable) {
-        if (auto made = preparePsiTable(); !made) return made;
-    }
-    if (!needsField(*draw.layer)) return {};
-    const FieldUse use = mainField(*draw.layer, draw.dataset->summary());
-    const auto field = draw.dataset->field(device_, *draw.layer, **part, use, frame_);
-    if (!field) return field.error();
-    draw.field = *field;
-    const auto second = secondField(*draw.layer, draw.dataset->summary());
-    if (!second) return {};
-    const auto density = draw.dataset->field(device_, *draw.layer, **part, *second, frame_);
-    if (!density) return density.error();
-    draw.density = *density;
-    return {};
-}
-
-Result<void> DeviceRenderer::preparePsiTable() {
-    if (psiTable_.valid()) return {};
-    const std::vector<float> table = shading::makePsiTable();
-    const auto bytes = std::as_bytes(std::span{table});
-    auto made = gpu::Buffer::create(
-        device_, {.bytes = bytes.size(), .texels = gpu::TexelFormat::kR32F, .label = "psi table"},
-        bytes);
-    if (!made) return made.error();
-    psiTable_ = std::move(*made);
-    return {};
+    return draw.dataset->summary().isMesh ? prepareMesh(context_, draw)
+                                          : prepareVoxels(context_, draw);
 }
 
 Result<void> DeviceRenderer::sendBlocks(Frame& frame) {
@@ -407,41 +295,8 @@ Result<void> DeviceRenderer::drawLayer(const Frame& frame, const LayerDraw& draw
     }
     const gpu::Target* target =
         isOpaque(draw) ? &frame.picture->opaquePass : &frame.picture->transparentPass;
-    const auto clipPlanes = static_cast<int>(frame.scene->clipPlanes.size());
-    if (draw.channel != nullptr) {
-        return volume::drawMarch({.device = &device_,
-                                  .programs = &programs_,
-                                  .channel = draw.channel,
-                                  .layer = draw.layer,
-                                  .plan = draw.plan,
-                                  .clipPlanes = clipPlanes,
-                                  .filterInHardware = filterInHardware_,
-                                  .constants = draw.constants,
-                                  .target = target});
-    }
-    if (draw.part->gpu == nullptr) return {};  // No cell is left to draw.
-    const mesh::DrawInputs inputs{
-        .device = &device_,
-        .programs = &programs_,
-        .mesh = &draw.part->mesh(std::get<data::Mesh>(draw.dataset->data())),
-        .meshGpu = draw.part->gpu.get(),
-        .field = draw.field,
-        .density = draw.density,
-        .layer = draw.layer,
-        .plan = draw.plan,
-        .camera = &frame.scene->camera,
-        .planeDepth = frame.depths.nearest,
-        .size = frame.size,
-        .cameraVersion = frame.cameraVersion,
-        .constants = draw.constants,
-        .clipPlanes = clipPlanes,
-        .levels = draw.levels,
-        .countsSteps = frame.countsSteps,
-        .psiTable = draw.plan->method == Integrator::kPsiTable ? &psiTable_ : nullptr,
-        .target = target};
-    if (draw.plan->evaluator == plan::Evaluator::kMeshRaster) return mesh::drawSurface(inputs);
-    return isProjected(draw) ? mesh::drawProjection(inputs, *draw.state->projection)
-                             : mesh::drawWalk(inputs, *draw.state->walk);
+    return draw.dataset->summary().isMesh ? drawMesh(context_, frame, draw, *target)
+                                          : drawVoxels(context_, frame, draw, *target);
 }
 
 Result<void> DeviceRenderer::resolve(const Frame& frame) {

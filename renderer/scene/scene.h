@@ -10,20 +10,22 @@
 
 #include "renderer/data/transfer_function.h"
 #include "renderer/scene/camera.h"
+#include "renderer/scene/user_shader.h"
 
 namespace volcast::scene {
 
 /// What a ray gathers. Each is one GLSL chunk and one row of ray_models.h, in this order.
 enum class RayModel {
-    kSurface,     ///< Nearest boundary point of a mesh.
-    kWireframe,   ///< The same with the edges of its faces.
-    kMip,         ///< Colour of the largest value on the ray (voxels: MAX).
-    kMinip,       ///< Colour of the smallest value on the ray.
-    kMipColour,   ///< Largest red, green and blue of C(f) on the ray, each by itself.
-    kXray,        ///< White through what absorbs: exp(-k int rho(g) ds).
-    kSplat,       ///< 2^exposure int C(f) ds.
-    kIsosurface,  ///< Nearest point whose value is one of a set of levels.
-    kVolume,      ///< Emission and absorption (voxels: ON).
+    kSurface,        ///< Nearest boundary point of a mesh.
+    kWireframe,      ///< The same with the edges of its faces.
+    kMip,            ///< Colour of the largest value on the ray (voxels: MAX).
+    kMinip,          ///< Colour of the smallest value on the ray.
+    kMipColour,      ///< Largest red, green and blue of C(f) on the ray, each by itself.
+    kXray,           ///< White through what absorbs: exp(-k int rho(g) ds).
+    kSplat,          ///< 2^exposure int C(f) ds.
+    kIsosurface,     ///< Nearest point whose value is one of a set of levels.
+    kVolume,         ///< Emission and absorption (voxels: ON).
+    kCrossSections,  ///< Planes across the axes of a grid (voxels: OFF).
 };
 
 /// How a ray's share of one cell is integrated; ray_models.h lists what serves which model.
@@ -37,6 +39,7 @@ enum class Integrator {
     kExact,          ///< Split where the map bends; all models.
     kFront,          ///< xray, splat: the map at the front end.
     kEnds,           ///< xray, splat, mip_colour: the map at both ends.
+    kAdaptive,       ///< voxels: steps as long as the map allows.
 };
 
 /// What brings rays and cells of a mesh together.
@@ -45,6 +48,14 @@ enum class MeshEvaluator {
     kWalk,             ///< Rays walk from cell to cell.
     kProjection,       ///< Cells are drawn by their faces towards the eye, exits are computed.
     kProjectionFaces,  ///< Cells are drawn by all faces: only extremes of both ends.
+};
+
+/// What brings rays and voxels together.
+enum class VoxelEvaluator {
+    kAuto,            ///< Whatever the plan finds best.
+    kMarch,           ///< Rays march front to back.
+    kSlices,          ///< Polygons across the view, one draw each.
+    kSliceInstances,  ///< The same as instances of one polygon.
 };
 
 /// How voxels are read between grid points.
@@ -102,6 +113,21 @@ struct Light {
     friend bool operator==(const Light&, const Light&) = default;
 };
 
+/// Three planes across the axes of a volume's grid, which meet in a point.
+struct CrossSections {
+    std::optional<glm::dvec3> point{};  ///< World; none: the middle of the data.
+    glm::bvec3 shown{true};             ///< By the axis that a plane lies across.
+    friend bool operator==(const CrossSections&, const CrossSections&) = default;
+};
+
+/// One channel of several that are drawn together.
+struct ChannelMap {
+    std::string field;
+    data::TransferFunction map;
+    bool visible = true;
+    friend bool operator==(const ChannelMap&, const ChannelMap&) = default;
+};
+
 /// One data model drawn with one ray model.
 struct Layer {
     std::string id;       ///< Unique in its scene; names the layer in diffs and errors.
@@ -138,6 +164,13 @@ struct Layer {
     double stepWorld = 0.0;  ///< World units; 0: half the smallest spacing.
     Sampling sampling = Sampling::kTrilinear;
     std::optional<Light> light{};  ///< volume; none: matter emits its colour alone.
+    VoxelEvaluator voxelEvaluator = VoxelEvaluator::kAuto;
+    int depthSamples = 0;                   ///< Samples through the volume; 0: as `stepWorld` says.
+    float gain = 0.0F;                      ///< volume: extinction times exp(gain).
+    std::optional<std::uint32_t> jitter{};  ///< Seed of where rays begin in a step; none: off.
+    std::vector<ChannelMap> channels = {};  ///< Empty: `field` by `map`.
+    UserShader shader = {};                 ///< No code: the map says what is emitted.
+    CrossSections crossSections = {};
 
     friend bool operator==(const Layer&, const Layer&) = default;
 };

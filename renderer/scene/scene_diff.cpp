@@ -31,18 +31,23 @@ LayerDiff diff(const Layer* before, const Layer& after) {
                    before->densityScale != after.densityScale;
     change.cells = before->markers != after.markers;
     change.map = before->map != after.map || before->densityMap != after.densityMap ||
-                 before->levels != after.levels;
+                 before->levels != after.levels || before->channels != after.channels;
     change.program = before->model != after.model || before->integrator != after.integrator ||
                      before->evaluator != after.evaluator || before->sampling != after.sampling ||
                      before->coloured != after.coloured || before->headlight != after.headlight ||
                      before->interval.has_value() != after.interval.has_value() ||
-                     before->light.has_value() != after.light.has_value();
-    change.uniforms = before->surfaceColour != after.surfaceColour ||
-                      before->stepWorld != after.stepWorld || before->interval != after.interval ||
-                      before->edgeWidth != after.edgeWidth ||
-                      before->edgeColour != after.edgeColour ||
-                      before->extinctionScale != after.extinctionScale ||
-                      before->exposure != after.exposure || before->light != after.light;
+                     before->light.has_value() != after.light.has_value() ||
+                     before->voxelEvaluator != after.voxelEvaluator ||
+                     before->jitter.has_value() != after.jitter.has_value() ||
+                     before->shader.code != after.shader.code;
+    change.uniforms =
+        before->surfaceColour != after.surfaceColour || before->stepWorld != after.stepWorld ||
+        before->interval != after.interval || before->edgeWidth != after.edgeWidth ||
+        before->edgeColour != after.edgeColour ||
+        before->extinctionScale != after.extinctionScale || before->exposure != after.exposure ||
+        before->light != after.light || before->depthSamples != after.depthSamples ||
+        before->gain != after.gain || before->jitter != after.jitter ||
+        before->shader != after.shader || before->crossSections != after.crossSections;
     return change;
 }
 

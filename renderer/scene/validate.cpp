@@ -193,9 +193,17 @@ Result<void> validateScales(const Layer& layer, const data::FieldSummary& f,
     return valid;
 }
 
+Error wrongModel(const Layer& layer, const std::string& path, const char* why) {
+    return fail(ErrorCode::kUnsupported, path + ".model: " + std::string{name(layer.model)} + why,
+                path + ".model");
+}
+
 /// What only meshes have: several fields, markers, isosurfaces of fields at vertices.
 Result<void> validateMesh(const Layer& layer, const data::DatasetSummary& summary,
                           const std::string& path) {
+    if (!row(layer.model).onMeshes) {
+        return wrongModel(layer, path, " draws the grid of a volume of voxels; a mesh has none");
+    }
     if (!layer.markers.field.empty()) {
         const data::FieldSummary* marker = fieldNamed(summary, layer.markers.field);
         if (marker == nullptr) {
@@ -235,9 +243,7 @@ Result<void> validateVolume(const Layer& layer, const std::string& path) {
         return fail(ErrorCode::kUnsupported, field + ": " + why, field);
     };
     if (!row(layer.model).onVolumes) {
-        return unsupported(path + ".model",
-                           std::string{name(layer.model)} +
-                               " draws the faces of a mesh; a volume of voxels has none");
+        return wrongModel(layer, path, " draws the faces of a mesh; a volume of voxels has none");
     }
     if (!layer.densityField.empty()) {
         return unsupported(path + ".density_field",

@@ -52,6 +52,9 @@ struct DrawInputs {
 /// Errors: kShaderBuild.
 Result<void> drawMarch(const DrawInputs& inputs);
 
+/// The same of a layer of cross-sections.
+Result<void> drawCrossSections(const DrawInputs& inputs);
+
 /// What tells the programs of drawMarch() apart.
 struct MarchTraits {
     scene::RayModel model = scene::RayModel::kVolume;

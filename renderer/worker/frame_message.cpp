@@ -7,9 +7,14 @@ namespace volcast::worker {
 
 namespace {
 
-constexpr std::array kEvaluators{plan::Evaluator::kMeshWalk, plan::Evaluator::kMeshProjection,
+constexpr std::array kEvaluators{plan::Evaluator::kMeshWalk,
+                                 plan::Evaluator::kMeshProjection,
                                  plan::Evaluator::kMeshProjectionFaces,
-                                 plan::Evaluator::kMeshRaster, plan::Evaluator::kVolumeMarch};
+                                 plan::Evaluator::kMeshRaster,
+                                 plan::Evaluator::kVolumeMarch,
+                                 plan::Evaluator::kVolumeSlices,
+                                 plan::Evaluator::kVolumeSliceInstances,
+                                 plan::Evaluator::kCrossSections};
 
 }  // namespace
 
@@ -20,6 +25,9 @@ const char* name(plan::Evaluator evaluator) noexcept {
         case plan::Evaluator::kMeshProjectionFaces: return "mesh projection of all faces";
         case plan::Evaluator::kMeshRaster: return "mesh raster";
         case plan::Evaluator::kVolumeMarch: return "volume march";
+        case plan::Evaluator::kVolumeSlices: return "volume slices";
+        case plan::Evaluator::kVolumeSliceInstances: return "volume slices as instances";
+        case plan::Evaluator::kCrossSections: return "cross-sections";
     }
     return "";
 }

@@ -10,6 +10,7 @@
 
 #include "renderer/scene/validate.h"
 #include "renderer/worker/scene_message_pairs.h"
+#include "renderer/worker/user_shader_message.h"
 
 namespace volcast::worker {
 
@@ -209,6 +210,36 @@ Result<void> readParameters(const v1::Layer& message, const string& path, scene:
     return {};
 }
 
+Result<void> readVoxels(const v1::Layer& message, const string& path, scene::Layer& layer) {
+    const auto evaluator =
+        oursFrom(kVoxelEvaluators, message.voxel_evaluator(), path + ".voxel_evaluator");
+    if (!evaluator) return evaluator.error();
+    layer.voxelEvaluator = *evaluator;
+    layer.depthSamples = message.depth_samples();
+    const auto gain = floatFrom(message.gain(), path + ".gain");
+    if (!gain) return gain.error();
+    layer.gain = *gain;
+    if (message.has_jitter()) layer.jitter = message.jitter();
+    for (int i = 0; i < message.channels_size(); ++i) {
+        const v1::ChannelMap& channel = message.channels(i);
+        auto map = mapFrom(channel.transfer_function(),
+                           path + ".channels[" + std::to_string(i) + "].transfer_function");
+        if (!map) return std::move(map).error();
+        layer.channels.push_back(
+            {.field = channel.field(), .map = *std::move(map), .visible = !channel.hidden()});
+    }
+    if (message.has_shader()) {
+        auto shader = userShaderFrom(message.shader(), path + ".shader");
+        if (!shader) return std::move(shader).error();
+        layer.shader = *std::move(shader);
+    }
+    const v1::CrossSections& sections = message.cross_sections();
+    if (sections.has_point()) layer.crossSections.point = vectorFrom(sections.point());
+    layer.crossSections.shown =
+        glm::not_(glm::bvec3(sections.hide_first(), sections.hide_second(), sections.hide_third()));
+    return {};
+}
+
 Result<scene::Layer> layerFrom(const v1::Layer& message, const string& path) {
     auto model = oursFrom(kModels, message.model(), path + ".model");
     if (!model) return std::move(model).error();
@@ -235,6 +266,7 @@ Result<scene::Layer> layerFrom(const v1::Layer& message, const string& path) {
                        .sampling = *sampling};
     Result<void> read = readSelection(message, path, layer);
     if (read) read = readParameters(message, path, layer);
+    if (read) read = readVoxels(message, path, layer);
     if (!read) return std::move(read).error();
     return layer;
 }

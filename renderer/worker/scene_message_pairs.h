@@ -32,6 +32,7 @@ constexpr std::array kModels{
     Pair{RayModel::kXray, v1::RAY_MODEL_XRAY},
     Pair{RayModel::kSplat, v1::RAY_MODEL_SPLAT},
     Pair{RayModel::kIsosurface, v1::RAY_MODEL_ISOSURFACE},
+    Pair{RayModel::kCrossSections, v1::RAY_MODEL_CROSS_SECTIONS},
 };
 
 constexpr std::array kIntegrators{
@@ -44,6 +45,7 @@ constexpr std::array kIntegrators{
     Pair{Integrator::kExact, v1::INTEGRATOR_EXACT},
     Pair{Integrator::kFront, v1::INTEGRATOR_FRONT},
     Pair{Integrator::kEnds, v1::INTEGRATOR_ENDS},
+    Pair{Integrator::kAdaptive, v1::INTEGRATOR_ADAPTIVE},
 };
 
 constexpr std::array kEvaluators{
@@ -57,6 +59,13 @@ constexpr std::array kSamplings{
     Pair{scene::Sampling::kTrilinear, v1::SAMPLING_TRILINEAR},
     Pair{scene::Sampling::kNearest, v1::SAMPLING_NEAREST},
     Pair{scene::Sampling::kTricubic, v1::SAMPLING_TRICUBIC},
+};
+
+constexpr std::array kVoxelEvaluators{
+    Pair{scene::VoxelEvaluator::kAuto, v1::VOXEL_EVALUATOR_AUTO},
+    Pair{scene::VoxelEvaluator::kMarch, v1::VOXEL_EVALUATOR_MARCH},
+    Pair{scene::VoxelEvaluator::kSlices, v1::VOXEL_EVALUATOR_SLICES},
+    Pair{scene::VoxelEvaluator::kSliceInstances, v1::VOXEL_EVALUATOR_SLICE_INSTANCES},
 };
 
 constexpr std::array kScales{

@@ -1,6 +1,7 @@
 // Scenes as messages; scene_message.cpp reads them.
 #include "renderer/worker/scene_message.h"
 #include "renderer/worker/scene_message_pairs.h"
+#include "renderer/worker/user_shader_message.h"
 
 namespace volcast::worker {
 
@@ -73,12 +74,37 @@ void put(v1::Light* message, const scene::Light& light) {
     message->set_exponent(light.exponent);
 }
 
+void put(v1::CrossSections* message, const scene::CrossSections& sections) {
+    if (sections.point) put(message->mutable_point(), *sections.point);
+    message->set_hide_first(!sections.shown.x);
+    message->set_hide_second(!sections.shown.y);
+    message->set_hide_third(!sections.shown.z);
+}
+
+void putVoxels(v1::Layer* message, const scene::Layer& layer) {
+    message->set_voxel_evaluator(theirsFrom(kVoxelEvaluators, layer.voxelEvaluator));
+    message->set_depth_samples(layer.depthSamples);
+    message->set_gain(layer.gain);
+    if (layer.jitter) message->set_jitter(*layer.jitter);
+    for (const scene::ChannelMap& channel : layer.channels) {
+        v1::ChannelMap* added = message->add_channels();
+        added->set_field(channel.field);
+        put(added->mutable_transfer_function(), channel.map);
+        added->set_hidden(!channel.visible);
+    }
+    if (layer.shader != scene::UserShader{}) *message->mutable_shader() = toMessage(layer.shader);
+    if (layer.crossSections != scene::CrossSections{}) {
+        put(message->mutable_cross_sections(), layer.crossSections);
+    }
+}
+
 void putParameters(v1::Layer* message, const scene::Layer& layer) {
     message->set_edge_width(layer.edgeWidth);
     put(message->mutable_edge_colour(), layer.edgeColour);
     message->set_extinction_scale(layer.extinctionScale);
     message->set_exposure(layer.exposure);
     if (layer.light) put(message->mutable_light(), *layer.light);
+    putVoxels(message, layer);
     if (layer.levels == scene::Levels{}) return;
     v1::Levels* levels = message->mutable_levels();
     levels->set_spacing(theirsFrom(kSpacings, layer.levels.spacing));

@@ -24,5 +24,6 @@ struct LayerBlock {
     vec4 gather;             // x: extinction scale, y: 2^exposure; interval of f: z: lowest, w: highest
     vec4 clipPlanes[6];      // data space: kept where dot(xyz, position) >= w
     vec4 light;              // data space: its place; w: 1, or 0 where it is at the eye
+    vec4 sections;           // cross-sections: grid coordinates of where they meet; w: bit i: the one across axis i is shown
     vec4 reflection;         // of it: ambient, diffuse, specular, exponent
 };

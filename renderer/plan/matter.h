@@ -1,0 +1,51 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+
+#include "renderer/plan/plan.h"
+#include "renderer/scene/layer_fields.h"
+
+namespace volcast::plan {
+
+/// What the rays of one layer meet.
+struct Matter {
+    const scene::Layer& layer;
+    const data::DatasetSummary& summary;
+    const data::FieldSummary* field;        // The one that rays carry.
+    std::optional<scene::FieldUse> second;  // g, where it has values of its own.
+    scene::LayerMaps maps;
+    data::Range extinction;  // Of the field's values; volume and xray.
+    double diagonal;         // Of the bounds, world units.
+};
+
+/// The matter of `layer`; all must live longer than it.
+Matter matterOf(const scene::Layer& layer, const data::DatasetSummary& summary);
+
+/// Whether values change within a cell.
+bool varies(const data::FieldSummary* field);
+
+/// Whether the map's extinction has a meaning.
+bool absorbs(scene::RayModel model);
+
+/// Four digits, for reasons.
+std::string number(double value);
+
+void add(LayerPlan& plan, const char* name, bool on, std::string reason);
+
+// What meshes and voxels have in common.
+void planEarlyStop(LayerPlan& plan, const Matter& matter);
+void planHeadlight(LayerPlan& plan, const scene::Layer& isosurface);
+
+/// Rays through a mesh.
+void planMeshRays(LayerPlan& plan, const Matter& matter, const scene::Accuracy& wish,
+                  std::span<const Evidence> evidence);
+/// Boundary faces.
+void planSurface(LayerPlan& plan, const Matter& matter);
+/// Rays through voxels.
+void planVoxels(LayerPlan& plan, const Matter& matter);
+/// Planes through voxels.
+void planCrossSections(LayerPlan& plan, const Matter& matter);
+
+}  // namespace volcast::plan

@@ -1,0 +1,101 @@
+#include <algorithm>
+
+#include "renderer/plan/effects.h"
+#include "renderer/plan/matter.h"
+#include "renderer/scene/ray_models.h"
+
+namespace volcast::plan {
+namespace {
+
+using scene::Layer;
+using scene::RayModel;
+
+void planStep(LayerPlan& plan, const Matter& matter) {
+    const glm::dvec3 spacing = matter.summary.spacing;
+    const double wanted = matter.layer.stepWorld > 0.0
+                              ? matter.layer.stepWorld
+                              : 0.5 * std::min({spacing.x, spacing.y, spacing.z});
+    const double longest = glm::length(spacing * glm::dvec3(matter.summary.voxels - 1));
+    const double smallest = longest / kMaxRaySamples;
+    plan.stepWorld = std::max(wanted, smallest);
+    const bool enlarged = wanted < smallest;
+    add(plan, kStepEnlarged, enlarged,
+        enlarged
+            ? "a step of " + number(wanted) + " needs more than " + std::to_string(kMaxRaySamples) +
+                  " samples on a ray: drawn with " + number(smallest)
+            : "the step is as asked for");
+}
+
+/// Why bricks can be passed over whatever the map; empty where they cannot.
+std::string reasonToPassOver(RayModel model) {
+    switch (model) {
+        case RayModel::kMip: return "a brick that cannot raise the maximum is passed over";
+        case RayModel::kMinip: return "a brick that cannot lower the minimum is passed over";
+        case RayModel::kIsosurface: return "a brick between two levels is passed over";
+        default: return {};
+    }
+}
+
+void planBricks(LayerPlan& plan, const Matter& matter) {
+    const glm::ivec3 intervals = matter.summary.voxels - 1;
+    const bool several =
+        std::max({intervals.x, intervals.y, intervals.z}) > data::Volume::kBrickSize;
+    if (!several) {
+        add(plan, kEmptyBricks, false, "the volume is a single brick");
+    } else if (plan.has(kInterval)) {
+        add(plan, kEmptyBricks, true, "a brick without values in the interval is passed over");
+    } else if (!absorbs(matter.layer.model)) {
+        const std::string reason = reasonToPassOver(matter.layer.model);
+        add(plan, kEmptyBricks, !reason.empty(),
+            reason.empty() ? "every value of a brick may add to the ray" : reason);
+    } else if (matter.extinction.min > 0.0F) {
+        add(plan, kEmptyBricks, false, "the map has extinction everywhere in the data's range");
+    } else {
+        add(plan, kEmptyBricks, true, "the map has no extinction in a part of the data's range");
+    }
+}
+
+/// What the model does with samples: a sample's piece is constant, so that cheap ways are right.
+scene::Integrator methodOfSamples(RayModel model, bool continuous) {
+    const scene::Integrator cheapest = scene::row(model).integrators.front().integrator;
+    // A field that is continuous has every value between those of its samples.
+    return model == RayModel::kMipColour && continuous ? scene::Integrator::kExact : cheapest;
+}
+
+void planInterpolation(LayerPlan& plan, const Layer& layer) {
+    const bool interpolates = layer.sampling != scene::Sampling::kNearest;
+    add(plan, kInterpolation, interpolates,
+        interpolates ? std::string{scene::name(layer.sampling)} + " between grid points"
+                     : "the nearest grid point's value");
+}
+
+void planLight(LayerPlan& plan, const Layer& volume) {
+    const bool lit = volume.light.has_value();
+    add(plan, kLight, lit,
+        !lit                     ? "matter emits its colour alone, so no gradient is needed"
+        : volume.light->position ? "lit from a point of the world"
+                                 : "lit from the eye");
+}
+
+}  // namespace
+
+void planVoxels(LayerPlan& plan, const Matter& matter) {
+    plan.evaluator = Evaluator::kVolumeMarch;
+    plan.integrator = "march";
+    planInterpolation(plan, matter.layer);
+    plan.method = methodOfSamples(matter.layer.model, plan.has(kInterpolation));
+    if (matter.layer.model == RayModel::kIsosurface) planHeadlight(plan, matter.layer);
+    if (matter.layer.model == RayModel::kVolume) planLight(plan, matter.layer);
+    planStep(plan, matter);
+    planBricks(plan, matter);
+    planEarlyStop(plan, matter);
+}
+
+void planCrossSections(LayerPlan& plan, const Matter& matter) {
+    plan.evaluator = Evaluator::kCrossSections;
+    plan.integrator = "planes";
+    planInterpolation(plan, matter.layer);
+    add(plan, kEndsAtSurfaces, false, "opaque layers share one depth");
+}
+
+}  // namespace volcast::plan

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "renderer/scene/dataset_cache.h"
+#include "renderer/scene/ray_models.h"
+#include "renderer/scene/view.h"
+
+namespace volcast::scene {
+
+/// One layer that is drawn, and all its draw needs.
+struct LayerDraw {
+    std::size_t index = 0;  ///< In the scene.
+    const Layer* layer = nullptr;
+    const plan::LayerPlan* plan = nullptr;
+    CachedDataset* dataset = nullptr;
+    LayerState* state = nullptr;
+    const MeshPart* part = nullptr;  // Of a mesh.
+    const mesh::FieldGpu* field = nullptr;
+    const mesh::FieldGpu* density = nullptr;
+    const volume::ChannelGpu* channel = nullptr;
+    std::vector<float> levels;  // Of an isosurface.
+    std::vector<shading::Constant> constants;
+};
+
+/// One call of render(), from validation to pixels.
+struct Frame {
+    View* view = nullptr;
+    const Scene* scene = nullptr;
+    PictureSize size{0};
+    const plan::FramePlan* plan = nullptr;
+    std::vector<LayerDraw> draws;
+    std::map<std::string, std::uint64_t> generations;
+    Picture* picture = nullptr;
+    DepthRange depths;
+    std::uint64_t cameraVersion = 0;
+    bool countsSteps = false;
+};
+
+inline bool isProjected(const LayerDraw& draw) {
+    return draw.plan->evaluator == plan::Evaluator::kMeshProjection ||
+           draw.plan->evaluator == plan::Evaluator::kMeshProjectionFaces;
+}
+
+inline bool isOpaque(const LayerDraw& draw) {
+    return row(draw.layer->model).opaque;
+}
+
+}  // namespace volcast::scene
