@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "renderer/scene/scale.h"
 #include "renderer/shading/shared.h"
 #include "renderer/volume/march.h"
 #include "renderer/volume/voxel_floats.h"
@@ -11,7 +12,8 @@ namespace {
 constexpr std::size_t kPieceBytes = std::size_t{32} << 20;
 
 Result<gpu::Texture3D> uploadVoxels(gpu::Device& device, const data::Volume& volume,
-                                    const data::Channel& channel) {
+                                    const data::Channel& channel,
+                                    const scene::ScaleFunction& scale) {
     Result<gpu::Texture3D> texture = gpu::Texture3D::create(
         device, {.size = volume.size, .linear = true, .label = channel.name.c_str()});
     if (!texture) return texture.error();
@@ -24,8 +26,11 @@ Result<gpu::Texture3D> uploadVoxels(gpu::Device& device, const data::Volume& vol
         const std::size_t bytesASlice = voxelsASlice * data::voxelBytes(volume.type);
         const auto part = channel.voxels.span().subspan(slice * bytesASlice, slices * bytesASlice);
         std::span<const std::byte> sent = part;
-        if (volume.type != data::VoxelType::kF32) {
+        if (volume.type != data::VoxelType::kF32 || !scale.identity()) {
             toFloats(volume.type, part, floats);
+            if (!scale.identity()) {
+                for (float& value : floats) value = scale.ofData(value);
+            }
             sent = std::as_bytes(std::span{floats});
         }
         const Result<void> uploaded = texture->upload(slice, slices, sent);
@@ -39,7 +44,9 @@ Result<gpu::Texture3D> uploadVoxels(gpu::Device& device, const data::Volume& vol
 Result<ChannelGpu> ChannelGpu::upload(gpu::Device& device, const data::Volume& volume,
                                       const data::Channel& channel) {
     ChannelGpu made;
-    Result<gpu::Texture3D> voxels = uploadVoxels(device, volume, channel);
+    // As maps, intervals and levels are: relative to the range where that lies far from 0.
+    const scene::ScaleFunction scale{scene::Scale{}, channel.range};
+    Result<gpu::Texture3D> voxels = uploadVoxels(device, volume, channel, scale);
     if (!voxels) return voxels.error();
     made.voxels_ = std::move(*voxels);
     const glm::ivec3 grid = volume.brickGrid();
@@ -47,7 +54,9 @@ Result<ChannelGpu> ChannelGpu::upload(gpu::Device& device, const data::Volume& v
         device, {.size = grid, .format = gpu::VoxelFormat::kRg32F, .label = "brick ranges"});
     if (!bricks) return bricks.error();
     made.bricks_ = std::move(*bricks);
-    const Result<void> uploaded = made.bricks_.upload(0, grid.z, channel.bricks.bytes());
+    std::vector<glm::vec2> ranges(channel.bricks.begin(), channel.bricks.end());
+    for (glm::vec2& range : ranges) range = {scale.ofData(range.x), scale.ofData(range.y)};
+    const Result<void> uploaded = made.bricks_.upload(0, grid.z, std::as_bytes(std::span{ranges}));
     if (!uploaded) return uploaded.error();
     return made;
 }
