@@ -2,6 +2,7 @@
 
 #include "renderer/scene/scale.h"
 #include "renderer/shading/shared.h"
+#include "renderer/volume/block_ranges.h"
 #include "renderer/volume/march.h"
 #include "renderer/volume/voxel_floats.h"
 
@@ -39,6 +40,35 @@ Result<gpu::Texture3D> uploadVoxels(gpu::Device& device, const data::Volume& vol
     return texture;
 }
 
+Result<gpu::Buffer> uploadBlocks(gpu::Device& device, const data::Volume& volume,
+                                 const data::Channel& channel, VoxelTexels texels) {
+    const BlockLayout layout{volume.size};
+    Result<gpu::Buffer> buffer =
+        gpu::Buffer::create(device, {.bytes = layout.texels() * sizeof(std::uint32_t),
+                                     .updatable = true,
+                                     .texels = gpu::TexelFormat::kR32U,
+                                     .label = channel.name.c_str()});
+    if (!buffer) return buffer;
+    std::vector<std::uint32_t> packed;
+    for (int layer = 0; layer < layout.blocks.z; ++layer) {
+        packLayer(layout, texels, channel.voxels.span(), layer, packed);
+        const auto bytes = std::as_bytes(std::span{packed});
+        buffer->update(layer * bytes.size(), bytes);
+    }
+    return buffer;
+}
+
+/// Two floats a block, its smallest and largest value, as rays see them.
+Result<gpu::Buffer> uploadRanges(gpu::Device& device, const data::Volume& volume,
+                                 const data::Channel& channel, const scene::ScaleFunction& scale) {
+    std::vector<glm::vec2> ranges = blockRanges(volume, channel);
+    for (glm::vec2& range : ranges) range = {scale.ofData(range.x), scale.ofData(range.y)};
+    const auto bytes = std::as_bytes(std::span{ranges});
+    return gpu::Buffer::create(
+        device, {.bytes = bytes.size(), .texels = gpu::TexelFormat::kR32F, .label = "block ranges"},
+        bytes);
+}
+
 }  // namespace
 
 Result<ChannelGpu> ChannelGpu::upload(gpu::Device& device, const data::Volume& volume,
@@ -46,24 +76,32 @@ Result<ChannelGpu> ChannelGpu::upload(gpu::Device& device, const data::Volume& v
     ChannelGpu made;
     // As maps, intervals and levels are: relative to the range where that lies far from 0.
     const scene::ScaleFunction scale{scene::Scale{}, channel.range};
-    Result<gpu::Texture3D> voxels = uploadVoxels(device, volume, channel, scale);
-    if (!voxels) return voxels.error();
-    made.voxels_ = std::move(*voxels);
-    const glm::ivec3 grid = volume.brickGrid();
-    Result<gpu::Texture3D> bricks = gpu::Texture3D::create(
-        device, {.size = grid, .format = gpu::VoxelFormat::kRg32F, .label = "brick ranges"});
-    if (!bricks) return bricks.error();
-    made.bricks_ = std::move(*bricks);
-    std::vector<glm::vec2> ranges(channel.bricks.begin(), channel.bricks.end());
-    for (glm::vec2& range : ranges) range = {scale.ofData(range.x), scale.ofData(range.y)};
-    const Result<void> uploaded = made.bricks_.upload(0, grid.z, std::as_bytes(std::span{ranges}));
-    if (!uploaded) return uploaded.error();
+    const auto limit = static_cast<std::size_t>(device.limits().texelBufferTexels);
+    if (scale.identity() && BlockLayout{volume.size}.texels() <= limit) {
+        made.texels_ = texelsFor(volume.type);
+    }
+    if (made.texels_ != VoxelTexels::kTexture) {
+        Result<gpu::Buffer> blocks = uploadBlocks(device, volume, channel, made.texels_);
+        if (!blocks) return blocks.error();
+        made.blocks_ = std::move(*blocks);
+    } else {
+        Result<gpu::Texture3D> voxels = uploadVoxels(device, volume, channel, scale);
+        if (!voxels) return voxels.error();
+        made.voxels_ = std::move(*voxels);
+    }
+    Result<gpu::Buffer> ranges = uploadRanges(device, volume, channel, scale);
+    if (!ranges) return ranges.error();
+    made.ranges_ = std::move(*ranges);
     return made;
 }
 
 void ChannelGpu::bind() const noexcept {
-    voxels_.bind(shading::shared::kVoxelUnit);
-    bricks_.bind(shading::shared::kBrickUnit);
+    if (texels_ == VoxelTexels::kTexture) {
+        voxels_.bind(shading::shared::kVoxelUnit);
+    } else {
+        blocks_.bindTexels(shading::shared::kVoxelUnit);
+    }
+    ranges_.bindTexels(shading::shared::kBrickUnit);
 }
 
 }  // namespace volcast::volume

@@ -6,6 +6,7 @@ namespace volcast::volume {
 Result<void> drawCrossSections(const DrawInputs& inputs) {
     std::vector<shading::Constant> constants = inputs.constants;
     constants.insert(constants.end(), {{"kSampling", static_cast<int>(inputs.layer->sampling)},
+                                       {"kTexels", static_cast<int>(inputs.channel->texels())},
                                        {"kFilterInHardware", inputs.filterInHardware},
                                        {"kInterval", inputs.plan->has(plan::kInterval)},
                                        {"kClipPlanes", inputs.clipPlanes},

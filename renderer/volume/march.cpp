@@ -6,6 +6,7 @@
 #include "renderer/plan/effects.h"
 #include "renderer/scene/ray_models.h"
 #include "renderer/shading/shared.h"
+#include "renderer/volume/block_ranges.h"
 
 namespace volcast::volume {
 
@@ -15,6 +16,7 @@ MarchTraits traitsOf(const DrawInputs& inputs) {
     return {.model = inputs.layer->model,
             .integrator = inputs.plan->method,
             .sampling = inputs.layer->sampling,
+            .texels = inputs.channel->texels(),
             .filterInHardware = inputs.filterInHardware,
             .skipsBricks = inputs.plan->has(plan::kEmptyBricks),
             .earlyStop = inputs.plan->has(plan::kEarlyStop),
@@ -30,9 +32,13 @@ shading::Recipe marchRecipe(const MarchTraits& traits, std::vector<shading::Cons
     const scene::RayModelRow& row = scene::row(traits.model);
     const scene::IntegratorRow* integrator = scene::integratorRow(traits.model, traits.integrator);
     constants.insert(constants.end(), {{"kSampling", static_cast<int>(traits.sampling)},
+                                       {"kTexels", static_cast<int>(traits.texels)},
                                        {"kFilterInHardware", traits.filterInHardware},
                                        {"kPieces", row.opaque},
                                        {"kSkipBricks", traits.skipsBricks},
+                                       {"kForesees", traits.skipsBricks && !traits.interval &&
+                                                         (traits.model == scene::RayModel::kMip ||
+                                                          traits.model == scene::RayModel::kMinip)},
                                        {"kEarlyStop", traits.earlyStop},
                                        {"kLit", traits.lit},
                                        {"kShaded", traits.shaded},
@@ -40,7 +46,8 @@ shading::Recipe marchRecipe(const MarchTraits& traits, std::vector<shading::Cons
                                        {"kClipPlanes", traits.clipPlanes},
                                        {"kClipsAtStart", true},
                                        {"kTricubicOvershoot", plan::kTricubicOvershoot},
-                                       {"kBrickSize", data::Volume::kBrickSize},
+                                       {"kRangeBlock", kRangeBlock},
+                                       {"kRangeReach", kRangeReach},
                                        {"kMaxRaySamples", plan::kMaxRaySamples}});
     std::string segment{integrator == nullptr ? "" : integrator->chunk};
     if (traits.shaded) segment = "segment/average_lit.glsl";

@@ -5,15 +5,16 @@
 
 #include "renderer/base/result.h"
 #include "renderer/data/volume.h"
+#include "renderer/gpu/buffer.h"
 #include "renderer/gpu/target.h"
 #include "renderer/gpu/texture3d.h"
 #include "renderer/plan/plan.h"
 #include "renderer/shading/program_cache.h"
+#include "renderer/volume/voxel_blocks.h"
 
 namespace volcast::volume {
 
-/// One channel of a volume on the GPU, as float32 whatever its type: exact for 8 and 16 bits, and
-/// faster to filter than integers on llvmpipe. Shared by all views.
+/// One channel of a volume on the GPU, exact whatever its type. Shared by all views.
 class ChannelGpu {
 public:
     /// Errors: kLimitExceeded (too many voxels along an axis), kOutOfGpuMemory.
@@ -21,10 +22,13 @@ public:
                                      const data::Channel& channel);
 
     void bind() const noexcept;
+    [[nodiscard]] VoxelTexels texels() const noexcept { return texels_; }
 
 private:
-    gpu::Texture3D voxels_;
-    gpu::Texture3D bricks_;
+    VoxelTexels texels_ = VoxelTexels::kTexture;
+    gpu::Buffer blocks_;     // Of all but kTexture.
+    gpu::Texture3D voxels_;  // Of kTexture.
+    gpu::Buffer ranges_;     // See block_ranges.h; 2 floats a block.
 };
 
 /// True where texture() interpolates float32 voxels in full precision. GPUs commonly keep 8 bits
@@ -60,7 +64,8 @@ struct MarchTraits {
     scene::RayModel model = scene::RayModel::kVolume;
     scene::Integrator integrator = scene::Integrator::kAverage;
     scene::Sampling sampling = scene::Sampling::kTrilinear;
-    bool filterInHardware = false;
+    VoxelTexels texels = VoxelTexels::kTexture;
+    bool filterInHardware = false;  ///< Of VoxelTexels::kTexture.
     bool skipsBricks = false;
     bool earlyStop = false;
     bool lit = false;     ///< Isosurfaces, at their hits.

@@ -25,6 +25,9 @@ bool stepRay(inout RayState state, inout Segment rest) {
     return state.opacity > kFinishedOpacity;
 }
 
+void foresee(inout RayState state, float lo, float hi) {
+}
+
 bool skipsBetween(RayState state, float lo, float hi) {
     return transparentBetween(lo, hi);
 }

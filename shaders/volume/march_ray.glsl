@@ -7,7 +7,7 @@
 // that the hit is less than dt / 2^kHalvings from a point where the field has the level's value: it
 // is on different sides at both ends of what is left. A line through these ends gives the hit. A
 // field that crosses a level and comes back within one step is not seen to do so.
-// Constants: kPieces, kSkipBricks, kEarlyStop, kMaxRaySamples, kBrickSize, kTricubicOvershoot;
+// Constants: kPieces, kForesees: the model is told all ranges first; kSkipBricks, kEarlyStop, kMaxRaySamples, kBrickSize, kTricubicOvershoot;
 // kInterval: only values in an interval count; kLit: levels are lit from the eye; kShaded: samples are by layer.light;
 // those of lib/window.glsl and volume/voxels.glsl.
 // Uses: classify through the model; segment through the model.
@@ -16,7 +16,6 @@
 #include "lib/window.glsl"
 #include "volume/voxels.glsl"
 
-layout(binding = kBrickUnit) uniform sampler3D brickRanges;  // r: smallest, g: largest value
 
 const int kHalvings = 8;
 
@@ -51,53 +50,7 @@ float placeOf(int i) {
     return kPieces ? float(i) : float(i) + 0.5;
 }
 
-ivec3 lastBrick() {
-    return max((ivec3(layer.grid.xyz) - 2) / kBrickSize, ivec3(0));
-}
-
-vec2 rangeOf(ivec3 brick) {
-    return texelFetch(brickRanges, clamp(brick, ivec3(0), lastBrick()), 0).rg;
-}
-
-vec2 rangeOf(vec2 a, vec2 b, vec2 c) {
-    return vec2(min(a.x, min(b.x, c.x)), max(a.y, max(b.y, c.y)));
-}
-
-vec2 rowRange(ivec3 brick) {
-    ivec3 next = ivec3(1, 0, 0);
-    return rangeOf(rangeOf(brick - next), rangeOf(brick), rangeOf(brick + next));
-}
-
-vec2 planeRange(ivec3 brick) {
-    ivec3 next = ivec3(0, 1, 0);
-    return rangeOf(rowRange(brick - next), rowRange(brick), rowRange(brick + next));
-}
-
-// What tricubic values in a brick are within. They are sums over voxels that reach into the bricks
-// around. Along an axis the weights below 0 add up to -t (1 - t) / 2, so that all their sizes do to
-// 1 + t (1 - t) <= 5/4; along three to 125/64. All weights add up to 1: those below 0 to -N and
-// those above to 1 + N with 1 + 2 N <= 125/64, N <= 61/128. Values are then between
-// low - N (high - low) and high + N (high - low); kTricubicOvershoot, 0.48, is more than N by more
-// than all rounding.
-vec2 tricubicRange(ivec3 brick) {
-    ivec3 next = ivec3(0, 0, 1);
-    vec2 range = rangeOf(planeRange(brick - next), planeRange(brick), planeRange(brick + next));
-    float overshoot = kTricubicOvershoot * (range.y - range.x);
-    return range + vec2(-overshoot, overshoot);
-}
-
-// The brick of step `i`: its range, and the first step beyond it.
-vec2 brickAt(March march, int i, out int beyond) {
-    vec3 position = positionAt(march, distanceOf(march, placeOf(i)));
-    ivec3 brick = clamp(ivec3(floor(position)) / kBrickSize, ivec3(0), lastBrick());
-    vec3 ahead = vec3(greaterThan(march.direction, vec3(0.0)));
-    vec3 wall = (vec3(brick) + ahead) * float(kBrickSize) - march.origin;
-    vec3 way = mix(wall / march.direction, vec3(3.0e38), equal(march.direction, vec3(0.0)));
-    float leave = min(way.x, min(way.y, way.z));
-    float index = (leave - march.begin) / march.dt - placeOf(0);
-    beyond = min(max(int(min(index, float(march.steps))) + 1, i + 1), march.steps);
-    return kSampling == kTricubic ? tricubicRange(brick) : rangeOf(brick);
-}
+#include "volume/ranges.glsl"
 
 bool skipsRange(RayState state, vec2 range) {
     if (kInterval) range = vec2(max(range.x, layer.gather.z), min(range.y, layer.gather.w));
@@ -139,24 +92,64 @@ void narrow(inout RayState state, March march, int i, float back) {
     stepRay(state, last);
 }
 
+// Takes the steps from `i` up to `beyond`, or until nothing behind can show.
+bool takeSteps(inout RayState state, inout float value, Ray ray, March march, inout int i, int beyond) {
+    bool finished = false;
+    // Two a round where that is right: it halves what a round costs, and one waits for memory while
+    // the other is looked up.
+    const bool kTwo = !kPieces && !kShaded && !kInterval && kSampling != kTricubic;
+    for (; kTwo && i + 1 < beyond && !finished; i += 2) {
+        float first = valueAfter(march, placeOf(i));
+        value = valueAfter(march, placeOf(i + 1));
+        Segment piece = sampledPiece(first, first, march.dt, distanceOf(march, float(i)));
+        stepRay(state, piece);
+        piece = sampledPiece(value, value, march.dt, distanceOf(march, float(i + 1)));
+        finished = stepRay(state, piece) && kEarlyStop;
+    }
+    for (; i < beyond && !finished; ++i) finished = takeStep(state, value, ray, march, i);
+    return finished;
+}
+
+// Steps that are looked at together: no more than lie within kRangeReach of their middle, and at
+// least one. Equal for all steps of a ray and nearly so for all rays, so that they stay side by side.
+int stepsTogether(March march) {
+    vec3 step = abs(march.direction) * march.dt;
+    return int(clamp(2.0 * float(kRangeReach) / max(step.x, max(step.y, step.z)), 1.0, 4096.0));
+}
+
+// The range of all values on steps [first, first + count].
+vec2 rangeOfSteps(March march, int first, int count) {
+    return rangeAround(positionAt(march, distanceOf(march, float(first) + 0.5 * float(count))));
+}
+
+// Tells the model what is on its way, so that it need not visit most of it.
+void foreseeAll(inout RayState state, March march, int together) {
+    for (int i = 0; i + together <= march.steps; i += together) {
+        vec2 range = rangeOfSteps(march, i, together);
+        foresee(state, range.x, range.y);
+    }
+}
+
 RayState marched(Ray ray, March march) {
     RayState state = beginRay(ray);
     float value = kPieces ? valueAfter(march, 0.0) : 0.0;
     if (kPieces) enterData(state, sampledPiece(value, value, 0.0, march.begin));
     bool finished = false;
     int i = 0;
-    if (!kSkipBricks) {
-        for (; i < march.steps && !finished; ++i) finished = takeStep(state, value, ray, march, i);
-    }
-    while (i < march.steps && !finished) {
-        int beyond;
-        vec2 range = brickAt(march, i, beyond);
-        if (skipsRange(state, range)) {
-            // The piece that leaves the brick ends beyond it.
-            i = kPieces ? beyond - 1 : beyond;
+    if (!kSkipBricks) finished = takeSteps(state, value, ray, march, i, march.steps);
+    int together = stepsTogether(march);
+    // Longer steps reach farther than ranges do.
+    vec3 step = abs(march.direction) * march.dt;
+    bool skips = max(step.x, max(step.y, step.z)) <= 2.0 * float(kRangeReach);
+    if (kForesees && skips) foreseeAll(state, march, together);
+    while (kSkipBricks && i < march.steps && !finished) {
+        int beyond = min(i + together, march.steps);
+        if (skips && skipsRange(state, rangeOfSteps(march, i, together))) {
+            i = beyond;
             if (kPieces) value = valueAfter(march, float(i));
+        } else {
+            finished = takeSteps(state, value, ray, march, i, beyond);
         }
-        for (; i < beyond && !finished; ++i) finished = takeStep(state, value, ray, march, i);
     }
     if (kPieces && finished) narrow(state, march, i - 1, value);
     return state;

@@ -1,36 +1,86 @@
 // The field of a channel between its grid points, in grid coordinates.
-// Constants: kSampling, kFilterInHardware (trilinear by the texture unit).
+// Constants: kSampling; kTexels, what a texel holds (VoxelTexels in renderer/volume/voxel_blocks.h);
+// kFilterInHardware: trilinear by the texture unit, where a texture holds the voxels.
+//
+// On llvmpipe a fetch costs about as much as interpolation, so a texel holds as many values of
+// integers as its 4 bytes have room for, and texels lie in blocks of 4^3 grid points.
 #include "lib/layer.glsl"
 #include "lib/unit.glsl"
 
-layout(binding = kVoxelUnit) uniform sampler3D voxels;
+// One of these is read; both are at one texture unit.
+layout(binding = kVoxelUnit) uniform sampler3D voxelTexture;
+layout(binding = kVoxelUnit) uniform usamplerBuffer voxelWords;
 
 const int kNearest = 0;
 const int kTrilinear = 1;
 const int kTricubic = 2;
 
-float voxel(ivec3 point) {
-    return texelFetch(voxels, point, 0).r;
-}
+const int kTexture = 0;
+const int kFaces8 = 1;
+const int kPairsU16 = 2;
+const int kPairsI16 = 3;
+
+// Computed before any loop, because llvmpipe reads a uniform again in each round: see
+// classify/transfer_function.glsl.
+ivec3 gridLast = ivec3(layer.grid.xyz + max(-gl_FragCoord.x, 0.0)) - 1;
+ivec2 blocks = (gridLast.xy + 5) / 4 | 1;
+// Texels from one block to the next, less those that are counted within a block.
+int nextRow = 64 * blocks.x - 16;
+int nextLayer = 64 * blocks.x * blocks.y - 64;
 
 ivec3 lastPoint() {
-    return ivec3(layer.grid.xyz) - 1;
+    return gridLast;
 }
 
-// The first grid point of the cell that holds `at`.
-ivec3 cellAt(vec3 at) {
-    return clamp(ivec3(floor(at)), ivec3(0), max(lastPoint() - 1, ivec3(0)));
+// The texel of grid point (x, y, z) is the sum of three; as BlockLayout says.
+int texelOfX(int x) {
+    return x + (x >> 2) * 60;
 }
 
-float trilinear(vec3 at) {
-    ivec3 low = cellAt(at);
+int texelOfY(int y) {
+    return 4 * y + (y >> 2) * nextRow;
+}
+
+int texelOfZ(int z) {
+    return 16 * z + (z >> 2) * nextLayer;
+}
+
+vec4 bytesOf(uint word) {
+    return vec4(word & 255u, word >> 8 & 255u, word >> 16 & 255u, word >> 24);
+}
+
+vec2 pairOf(uint word) {
+    return kTexels == kPairsI16 ? vec2(int(word << 16) >> 16, int(word) >> 16)
+                                : vec2(word & 65535u, word >> 16);
+}
+
+vec4 textureFace(ivec3 low) {
     ivec3 high = min(low + 1, lastPoint());
-    vec3 t = clamp(at - vec3(low), 0.0, 1.0);
-    vec4 front = vec4(voxel(low), voxel(ivec3(high.x, low.yz)), voxel(ivec3(low.x, high.y, low.z)),
-                      voxel(ivec3(high.xy, low.z)));
-    vec4 back = vec4(voxel(ivec3(low.xy, high.z)), voxel(ivec3(high.x, low.y, high.z)),
-                     voxel(ivec3(low.x, high.yz)), voxel(high));
-    vec4 plane = mix(front, back, t.z);
+    low = min(low, lastPoint());
+    return vec4(texelFetch(voxelTexture, low, 0).r, texelFetch(voxelTexture, ivec3(high.x, low.yz), 0).r,
+                texelFetch(voxelTexture, ivec3(low.x, high.y, low.z), 0).r,
+                texelFetch(voxelTexture, ivec3(high.xy, low.z), 0).r);
+}
+
+// The values at (x, y), (x + 1, y), (x, y + 1) and (x + 1, y + 1) of layer z. Beyond the last point
+// of an axis its value goes on; `low` is at most that point, z one more.
+vec4 face(ivec3 low) {
+    if (kTexels == kTexture) return textureFace(low);
+    int row = texelOfX(low.x) + texelOfZ(low.z);
+    uint word = texelFetch(voxelWords, row + texelOfY(low.y)).r;
+    if (kTexels == kFaces8) return bytesOf(word);
+    return vec4(pairOf(word), pairOf(texelFetch(voxelWords, row + texelOfY(low.y + 1)).r));
+}
+
+float voxel(ivec3 point) {
+    return face(point).x;
+}
+
+// `at` is in the box, up to rounding: what lies a hair outside is extrapolated by as much.
+float trilinear(vec3 at) {
+    ivec3 low = ivec3(at);
+    vec3 t = at - vec3(low);
+    vec4 plane = mix(face(low), face(ivec3(low.xy, low.z + 1)), t.z);
     vec2 line = mix(plane.xy, plane.zw, t.y);
     return mix(line.x, line.y, t.x);
 }
@@ -44,41 +94,41 @@ vec4 cubicWeights(float t) {
                       ((4.0 - 3.0 * t) * t + 1.0) * t, (t - 1.0) * t * t);
 }
 
-// The grid points that tricubic interpolation reads along each axis.
-struct Stencil {
-    ivec4 x, y, z;
-};
-
-float cubicLine(Stencil points, vec4 weights, int y, int z) {
-    return dot(weights, vec4(voxel(ivec3(points.x.x, y, z)), voxel(ivec3(points.x.y, y, z)),
-                             voxel(ivec3(points.x.z, y, z)), voxel(ivec3(points.x.w, y, z))));
+// A point's value and that of the point after it; below the first point its own value goes on.
+vec2 pairFrom(int point, vec2 pair) {
+    return point < 0 ? pair.xx : pair;
 }
 
-float cubicPlane(Stencil points, vec4 x, vec4 y, int z) {
-    return dot(y, vec4(cubicLine(points, x, points.y.x, z), cubicLine(points, x, points.y.y, z),
-                       cubicLine(points, x, points.y.z, z), cubicLine(points, x, points.y.w, z)));
+// Sixteen values of layer z around a cell, weighted.
+float cubicPlane(ivec2 low, vec4 x, vec4 y, int z) {
+    z = clamp(z, 0, lastPoint().z);
+    ivec2 before = low - 1, after = min(low + 1, lastPoint().xy);
+    ivec2 first = max(before, ivec2(0));
+    vec4 a = face(ivec3(first, z)), b = face(ivec3(after.x, first.y, z));
+    vec4 c = face(ivec3(first.x, after.y, z)), d = face(ivec3(after, z));
+    vec4 row0 = vec4(pairFrom(before.x, a.xy), b.xy), row1 = vec4(pairFrom(before.x, a.zw), b.zw);
+    row1 = before.y < 0 ? row0 : row1;
+    vec4 row2 = vec4(pairFrom(before.x, c.xy), d.xy), row3 = vec4(pairFrom(before.x, c.zw), d.zw);
+    return dot(y, vec4(dot(x, row0), dot(x, row1), dot(x, row2), dot(x, row3)));
 }
 
 // Written out: loops would soon meet the limit of llvmpipe.
 float tricubic(vec3 at) {
-    ivec3 low = cellAt(at);
-    ivec3 last = lastPoint();
-    ivec4 around = ivec4(-1, 0, 1, 2);
-    Stencil points = Stencil(clamp(low.x + around, 0, last.x), clamp(low.y + around, 0, last.y),
-                             clamp(low.z + around, 0, last.z));
+    ivec3 low = clamp(ivec3(at), ivec3(0), max(lastPoint() - 1, ivec3(0)));
     vec3 t = clamp(at - vec3(low), 0.0, 1.0);
     vec4 x = cubicWeights(t.x), y = cubicWeights(t.y);
     return dot(cubicWeights(t.z),
-               vec4(cubicPlane(points, x, y, points.z.x), cubicPlane(points, x, y, points.z.y),
-                    cubicPlane(points, x, y, points.z.z), cubicPlane(points, x, y, points.z.w)));
+               vec4(cubicPlane(low.xy, x, y, low.z - 1), cubicPlane(low.xy, x, y, low.z),
+                    cubicPlane(low.xy, x, y, low.z + 1), cubicPlane(low.xy, x, y, low.z + 2)));
 }
 
-// The value at grid coordinates `at`.
+// The value at grid coordinates `at`, in the box.
 float valueAt(vec3 at) {
     if (kSampling == kNearest) return voxel(clamp(ivec3(floor(at + 0.5)), ivec3(0), lastPoint()));
     if (kSampling == kTricubic) return tricubic(at);
-    return kFilterInHardware ? textureLod(voxels, (at + 0.5) / layer.grid.xyz, 0.0).r
-                             : trilinear(at);
+    return kTexels == kTexture && kFilterInHardware
+               ? textureLod(voxelTexture, (at + 0.5) / layer.grid.xyz, 0.0).r
+               : trilinear(at);
 }
 
 // The direction in which the field rises most, of length 1 in the world; 0 where it is flat. By
