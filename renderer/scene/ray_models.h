@@ -30,9 +30,10 @@ enum class Combine {
 /// them; adding one is described in shaders/README.md.
 struct RayModelRow {
     RayModel model;
-    std::string_view name;   ///< As in plans, in the protocol and on the command line.
-    std::string_view chunk;  ///< Fills the slot `model`; empty: not gathered along rays: faces, planes.
-    bool opaque;             ///< Ends the rays of layers that are not.
+    std::string_view name;  ///< As in plans, in the protocol and on the command line.
+    std::string_view
+        chunk;    ///< Fills the slot `model`; empty: not gathered along rays: faces, planes.
+    bool opaque;  ///< Ends the rays of layers that are not.
     Combine combine;
     bool secondField;  ///< A second field has a meaning.
     bool onMeshes;
