@@ -100,7 +100,7 @@ shading::Recipe projectionRecipe(const ProjectionTraits& traits,
 shading::Recipe projectionFinishRecipe(const ProjectionTraits& traits,
                                        std::vector<shading::Constant> constants) {
     shading::Recipe recipe = projectionRecipe(traits, {});
-    recipe.evaluator = "mesh/projection_finish.glsl";
+    recipe.evaluator = "lib/finish_shares.glsl";
     constants.push_back({"kPsiTableSide", shading::kPsiTableSide});
     recipe.constants = std::move(constants);
     return recipe;

@@ -5,6 +5,7 @@
 
 #include "renderer/mesh/mesh_buffers.h"
 #include "renderer/mesh/shared.h"
+#include "renderer/shading/shared.h"
 
 namespace volcast::mesh {
 
@@ -98,7 +99,7 @@ void ProjectionCache::bind(const DrawInputs& inputs) const {
 }
 
 void ProjectionCache::bindShares() const {
-    shares_.bind(shared::kAccumulatedUnit);
+    shares_.bind(shading::shared::kShareUnit);
 }
 
 OrderReport ProjectionCache::order() const {

@@ -15,8 +15,8 @@ enum class Evaluator {
     kMeshProjectionFaces,  ///< Cells by all their faces.
     kMeshRaster,           ///< Boundary faces as triangles.
     kVolumeMarch,
-    kVolumeSlices,          ///< Polygons across the view, one draw each.
-    kVolumeSliceInstances,  ///< The same as instances of one polygon.
+    kVolumeSlices,          ///< Polygons across the view.
+    kVolumeSliceInstances,  ///< The same as instances of one.
     kCrossSections,         ///< Planes through voxels.
 };
 

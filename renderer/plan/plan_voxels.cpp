@@ -62,6 +62,16 @@ scene::Integrator methodOfSamples(RayModel model, bool continuous) {
     return model == RayModel::kMipColour && continuous ? scene::Integrator::kExact : cheapest;
 }
 
+Evaluator evaluatorFor(scene::VoxelEvaluator evaluator) {
+    switch (evaluator) {
+        case scene::VoxelEvaluator::kSlices: return Evaluator::kVolumeSlices;
+        case scene::VoxelEvaluator::kSliceInstances: return Evaluator::kVolumeSliceInstances;
+        case scene::VoxelEvaluator::kAuto:
+        case scene::VoxelEvaluator::kMarch: break;
+    }
+    return Evaluator::kVolumeMarch;
+}
+
 void planInterpolation(LayerPlan& plan, const Layer& layer) {
     const bool interpolates = layer.sampling != scene::Sampling::kNearest;
     add(plan, kInterpolation, interpolates,
@@ -80,15 +90,21 @@ void planLight(LayerPlan& plan, const Layer& volume) {
 }  // namespace
 
 void planVoxels(LayerPlan& plan, const Matter& matter) {
-    plan.evaluator = Evaluator::kVolumeMarch;
-    plan.integrator = "march";
+    plan.evaluator = evaluatorFor(matter.layer.voxelEvaluator);
+    plan.integrator = plan.evaluator == Evaluator::kVolumeMarch ? "march" : "slices";
     planInterpolation(plan, matter.layer);
-    plan.method = methodOfSamples(matter.layer.model, plan.has(kInterpolation));
+    plan.method = methodOfSamples(
+        matter.layer.model, plan.has(kInterpolation) && plan.evaluator == Evaluator::kVolumeMarch);
     if (matter.layer.model == RayModel::kIsosurface) planHeadlight(plan, matter.layer);
     if (matter.layer.model == RayModel::kVolume) planLight(plan, matter.layer);
     planStep(plan, matter);
-    planBricks(plan, matter);
-    planEarlyStop(plan, matter);
+    if (plan.evaluator == Evaluator::kVolumeMarch) {
+        planBricks(plan, matter);
+        planEarlyStop(plan, matter);
+    } else {
+        add(plan, kEmptyBricks, false, "slices cut through all of the volume");
+        add(plan, kEarlyStop, false, "slices are drawn for all rays at once");
+    }
 }
 
 void planCrossSections(LayerPlan& plan, const Matter& matter) {

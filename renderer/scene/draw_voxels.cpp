@@ -21,9 +21,15 @@ Result<void> drawVoxels(const DrawContext& context, const Frame& frame, const La
                                     .filterInHardware = context.filterInHardware,
                                     .constants = draw.constants,
                                     .target = &target};
-    return draw.plan->evaluator == plan::Evaluator::kCrossSections
-               ? volume::drawCrossSections(inputs)
-               : volume::drawMarch(inputs);
+    switch (draw.plan->evaluator) {
+        case plan::Evaluator::kCrossSections: return volume::drawCrossSections(inputs);
+        case plan::Evaluator::kVolumeSlices:
+        case plan::Evaluator::kVolumeSliceInstances:
+            return volume::drawSlices(inputs, std::get<data::Volume>(draw.dataset->data()),
+                                      frame.scene->camera, frame.depths.nearest, frame.size,
+                                      draw.state->slices);
+        default: return volume::drawMarch(inputs);
+    }
 }
 
 }  // namespace volcast::scene

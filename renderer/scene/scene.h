@@ -54,8 +54,8 @@ enum class MeshEvaluator {
 enum class VoxelEvaluator {
     kAuto,            ///< Whatever the plan finds best.
     kMarch,           ///< Rays march front to back.
-    kSlices,          ///< Polygons across the view, one draw each.
-    kSliceInstances,  ///< The same as instances of one polygon.
+    kSlices,          ///< Polygons across the view.
+    kSliceInstances,  ///< The same as instances of one.
 };
 
 /// How voxels are read between grid points.

@@ -204,6 +204,12 @@ Result<void> validateMesh(const Layer& layer, const data::DatasetSummary& summar
     if (!row(layer.model).onMeshes) {
         return wrongModel(layer, path, " draws the grid of a volume of voxels; a mesh has none");
     }
+    if (layer.voxelEvaluator != VoxelEvaluator::kAuto) {
+        return fail(ErrorCode::kUnsupported,
+                    path + ".voxel_evaluator: " + std::string{name(layer.voxelEvaluator)} +
+                        " draws voxels; a mesh has an evaluator of its own",
+                    path + ".voxel_evaluator");
+    }
     if (!layer.markers.field.empty()) {
         const data::FieldSummary* marker = fieldNamed(summary, layer.markers.field);
         if (marker == nullptr) {
@@ -244,6 +250,13 @@ Result<void> validateVolume(const Layer& layer, const std::string& path) {
     };
     if (!row(layer.model).onVolumes) {
         return wrongModel(layer, path, " draws the faces of a mesh; a volume of voxels has none");
+    }
+    const bool slices = layer.voxelEvaluator == VoxelEvaluator::kSlices ||
+                        layer.voxelEvaluator == VoxelEvaluator::kSliceInstances;
+    if (slices && row(layer.model).opaque) {
+        return unsupported(path + ".voxel_evaluator", std::string{name(layer.voxelEvaluator)} +
+                                                          " draws what rays gather, not " +
+                                                          std::string{name(layer.model)});
     }
     if (!layer.densityField.empty()) {
         return unsupported(path + ".density_field",

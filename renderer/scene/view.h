@@ -10,6 +10,7 @@
 #include "renderer/scene/map_table.h"
 #include "renderer/scene/picture.h"
 #include "renderer/scene/view_blocks.h"
+#include "renderer/volume/slices.h"
 
 namespace volcast::scene {
 
@@ -17,6 +18,7 @@ namespace volcast::scene {
 struct LayerState {
     MapTable map;
     std::unique_ptr<mesh::WalkState> walk = mesh::WalkState::create();
+    volume::SlicesState slices;
     std::unique_ptr<mesh::ProjectionState> projection = mesh::ProjectionState::create();
     bool projected = false;        ///< `projection` is in use, `walk` is empty.
     std::uint64_t generation = 0;  ///< Of the dataset that both belong to.

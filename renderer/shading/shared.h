@@ -11,5 +11,6 @@ using glm::vec4;
 #include "shaders/shared/bindings.glsl"
 #include "shaders/shared/layer_block.glsl"
 #include "shaders/shared/psi_table.glsl"
+#include "shaders/shared/slice_block.glsl"
 
 }  // namespace volcast::shading::shared

@@ -1,22 +1,17 @@
-#include "renderer/plan/effects.h"
 #include "renderer/volume/march.h"
 
 namespace volcast::volume {
 
+shading::Recipe crossSectionRecipe(const MarchTraits& traits,
+                                   std::vector<shading::Constant> constants) {
+    shading::Recipe recipe = marchRecipe(traits, std::move(constants));
+    recipe.evaluator = "volume/cross_sections.glsl";
+    return recipe;
+}
+
 Result<void> drawCrossSections(const DrawInputs& inputs) {
-    std::vector<shading::Constant> constants = inputs.constants;
-    constants.insert(constants.end(), {{"kSampling", static_cast<int>(inputs.layer->sampling)},
-                                       {"kTexels", static_cast<int>(inputs.channel->texels())},
-                                       {"kFilterInHardware", inputs.filterInHardware},
-                                       {"kInterval", inputs.plan->has(plan::kInterval)},
-                                       {"kClipPlanes", inputs.clipPlanes},
-                                       {"kClipsAtStart", true}});
-    const Result<const gpu::Program*> program =
-        inputs.programs->ray({.evaluator = "volume/cross_sections.glsl",
-                              .classify = "classify/transfer_function.glsl",
-                              .segment = {},
-                              .model = {},
-                              .constants = std::move(constants)});
+    const auto program =
+        inputs.programs->ray(crossSectionRecipe(traitsOf(inputs), inputs.constants));
     if (!program) return program.error();
     inputs.target->begin({.depth = gpu::DepthTest::kNearest});
     (*program)->use();

@@ -10,8 +10,6 @@
 
 namespace volcast::volume {
 
-namespace {
-
 MarchTraits traitsOf(const DrawInputs& inputs) {
     return {.model = inputs.layer->model,
             .integrator = inputs.plan->method,
@@ -25,8 +23,6 @@ MarchTraits traitsOf(const DrawInputs& inputs) {
             .interval = inputs.plan->has(plan::kInterval),
             .clipPlanes = inputs.clipPlanes};
 }
-
-}  // namespace
 
 shading::Recipe marchRecipe(const MarchTraits& traits, std::vector<shading::Constant> constants) {
     const scene::RayModelRow& row = scene::row(traits.model);

@@ -74,6 +74,9 @@ struct MarchTraits {
     int clipPlanes = 0;
 };
 
+MarchTraits traitsOf(const DrawInputs& inputs);
+shading::Recipe crossSectionRecipe(const MarchTraits& traits,
+                                   std::vector<shading::Constant> constants);
 shading::Recipe marchRecipe(const MarchTraits& traits, std::vector<shading::Constant> constants);
 
 }  // namespace volcast::volume

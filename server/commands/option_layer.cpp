@@ -119,6 +119,9 @@ Result<void> setEvaluation(scene::Layer& layer, const SceneOptions& options) {
                         scene::allowedIntegrators(layer.model) + " can");
     }
     layer.stepWorld = options.step;
+    if (!options.voxelEvaluator.empty()) {
+        layer.voxelEvaluator = *scene::voxelEvaluatorNamed(options.voxelEvaluator);
+    }
     if (!options.sampling.empty()) layer.sampling = *scene::samplingNamed(options.sampling);
     return {};
 }
@@ -162,7 +165,20 @@ scene::Light lightFrom(const SceneOptions& options) {
     return light;
 }
 
+scene::CrossSections crossSectionsFrom(const SceneOptions& options) {
+    scene::CrossSections sections;
+    const std::vector<double>& point = options.sectionPoint;
+    if (!point.empty()) sections.point = glm::dvec3(point[0], point[1], point[2]);
+    if (options.sections.empty()) return sections;
+    const auto named = [&](const char* axis) {
+        return std::ranges::find(options.sections, axis) != options.sections.end();
+    };
+    sections.shown = {named("x"), named("y"), named("z")};
+    return sections;
+}
+
 void setLook(scene::Layer& layer, const SceneOptions& options) {
+    layer.crossSections = crossSectionsFrom(options);
     layer.headlight = !options.unlit;
     if (options.coloured) layer.coloured = true;
     if (!options.colour.empty()) {

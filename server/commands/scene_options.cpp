@@ -148,6 +148,10 @@ void addModelOptions(Group group, SceneOptions& o) {
         ->needs(range);
     group.add("--exposure", o.exposure, "Of splat, in stops; none: as the data suggests")
         ->check(finite());
+    group.numbers("--section-point", o.sectionPoint, 3,
+                  "X Y Z in the world where cross-sections meet; none: the middle");
+    group.add("--sections", o.sections, "Which of them: across the grid's x, y, z; none: all")
+        ->check(CLI::IsMember({"x", "y", "z"}));
     group
         .add("--extinction-scale", o.extinctionScale,
              "Factor of xray's extinction; none: as the data suggests")
@@ -175,6 +179,10 @@ void addEvaluation(Group group, SceneOptions& o) {
         ->check(finite() & CLI::NonNegativeNumber);
     group.add("--sampling", o.sampling, "Between voxels: trilinear, tricubic or nearest")
         ->check(CLI::IsMember({"trilinear", "tricubic", "nearest"}));
+    group
+        .add("--voxel-evaluator", o.voxelEvaluator,
+             "Of voxels: march, slices or slice_instances; auto: march")
+        ->check(CLI::IsMember({"auto", "march", "slices", "slice_instances"}));
 }
 
 void addView(Group group, SceneOptions& o) {

@@ -25,7 +25,9 @@ struct ScaleOptions {
 struct SceneOptions {
     std::string dataset;
     // the layer
-    std::string map, model, field, sampling, integrator, evaluator;
+    std::string map, model, field, sampling, integrator, evaluator, voxelEvaluator;
+    std::vector<double> sectionPoint;   ///< World; empty: the middle.
+    std::vector<std::string> sections;  ///< Those shown; empty: all.
     int timeStep = 0;
     double step = 0.0;  ///< World units; 0: half the smallest spacing.
     ScaleOptions scale;

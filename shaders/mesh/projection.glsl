@@ -1,5 +1,5 @@
 // One cell's share of the rays that cross it, blended with those of the others. For models whose
-// packed states combine by a blend equation; mesh/projection_finish.glsl turns the sum into a
+// packed states combine by a blend equation; lib/finish_shares.glsl turns the sum into a
 // picture.
 // Uses: model.
 #include "mesh/projected_cell.glsl"

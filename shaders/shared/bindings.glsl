@@ -4,6 +4,7 @@
 const int kLayerBinding = 0;
 const int kMapBinding = 1;
 const int kMeshBinding = 2;
+const int kSliceBinding = 3;
 
 // Texture units
 const int kMapUnit = 0;
@@ -11,4 +12,5 @@ const int kOpaqueDistanceUnit = 1;
 const int kVoxelUnit = 2;
 const int kBrickUnit = 3;
 const int kFirstMeshUnit = 4;
+const int kShareUnit = 14;     // what cells or slices gave to each pixel
 const int kPsiTableUnit = 15;  // the last that any GPU has in a fragment shader

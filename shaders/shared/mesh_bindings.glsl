@@ -13,7 +13,6 @@ const int kCornerUnit = 12;    // a cell's vertices, positively oriented
 const int kOrderUnit = 13;     // cells by number, front to back
 const int kLevelUnit = 9;      // values of levels; instead of entries
 const int kLevelCellUnit = 13; // cells and the numbers of levels that they meet; instead of an order
-const int kAccumulatedUnit = 14; // what cells gave to each pixel
 
 // Storage blocks
 const int kVertexStorage = 0;

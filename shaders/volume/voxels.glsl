@@ -126,9 +126,10 @@ float tricubic(vec3 at) {
 float valueAt(vec3 at) {
     if (kSampling == kNearest) return voxel(clamp(ivec3(floor(at + 0.5)), ivec3(0), lastPoint()));
     if (kSampling == kTricubic) return tricubic(at);
-    return kTexels == kTexture && kFilterInHardware
-               ? textureLod(voxelTexture, (at + 0.5) / layer.grid.xyz, 0.0).r
-               : trilinear(at);
+    if (kTexels == kTexture && kFilterInHardware) {
+        return textureLod(voxelTexture, (at + 0.5) / layer.grid.xyz, 0.0).r;
+    }
+    return trilinear(at);
 }
 
 // The direction in which the field rises most, of length 1 in the world; 0 where it is flat. By

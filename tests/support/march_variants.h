@@ -15,6 +15,7 @@ inline volume::MarchTraits marchTraits(const scene::RayModelRow& row, int varian
     return {.model = row.model,
             .integrator = (first ? row.integrators.front() : row.integrators.back()).integrator,
             .sampling = static_cast<scene::Sampling>(variant % 3),
+            .texels = static_cast<volume::VoxelTexels>(variant / 3 % 4),
             .filterInHardware = bit(3),
             .skipsBricks = bit(1),
             .earlyStop = bit(2),

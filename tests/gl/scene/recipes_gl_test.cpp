@@ -22,7 +22,7 @@ protected:
 TEST_F(Recipes, EveryModelOfVolumesMarchesInEveryVariant) {
     int built = 0;
     for (const scene::RayModelRow& row : scene::rayModels()) {
-        if (!row.onVolumes) continue;
+        if (!row.onVolumes || row.chunk.empty()) continue;
         for (int variant = 0; variant < support::kMarchVariants; ++variant) {
             const auto program = programs_.ray(volume::marchRecipe(
                 support::marchTraits(row, variant), support::layerConstants(variant)));

@@ -21,6 +21,7 @@
 #include "renderer/shading/glsl_scan.h"
 #include "renderer/shading/program_cache.h"
 #include "renderer/volume/march.h"
+#include "renderer/volume/slices.h"
 #include "tests/support/import_files.h"
 #include "tests/support/layer_constants.h"
 #include "tests/support/march_variants.h"
@@ -175,12 +176,22 @@ private:
 
 void Validator::addMarches() {
     for (const scene::RayModelRow& row : scene::rayModels()) {
-        if (!row.onVolumes) continue;
+        if (!row.onVolumes || row.chunk.empty()) continue;
         for (int variant = 0; variant < support::kMarchVariants; ++variant) {
             addRay(volume::marchRecipe(support::marchTraits(row, variant),
                                        support::layerConstants(variant)),
                    shading::kFullScreenVertex);
+            if (row.opaque) continue;
+            addRay(volume::sliceRecipe(support::marchTraits(row, variant), variant % 2 == 0,
+                                       support::layerConstants(variant)),
+                   volume::kSliceVertex);
         }
+    }
+    for (int variant = 0; variant < support::kMarchVariants; ++variant) {
+        addRay(volume::crossSectionRecipe(
+                   support::marchTraits(scene::row(scene::RayModel::kCrossSections), variant),
+                   support::layerConstants(variant)),
+               shading::kFullScreenVertex);
     }
 }
 
