@@ -10,7 +10,7 @@ import sys
 
 SCENE_MODEL = ["renderer/scene/camera", "renderer/scene/default_scene", "renderer/scene/layer_fields",
                "renderer/scene/ray_models", "renderer/scene/scale", "renderer/scene/scene_diff",
-               "renderer/scene/scene", "renderer/scene/validate"]
+               "renderer/scene/scene", "renderer/scene/user_shader", "renderer/scene/validate"]
 BASE = ["renderer/base"]
 MODEL = BASE + ["renderer/data", *SCENE_MODEL]
 DRAWING = MODEL + ["renderer/plan", "renderer/gpu", "renderer/shading"]
@@ -18,7 +18,7 @@ MEASUREMENT = "renderer/accuracy/measurement"  # Plain structs, for the server t
 # Both ends of the channel between server and worker; no GL.
 MESSAGES = [f"renderer/worker/{part}" for part in
             ("channel", "exit_codes", "frame_message", "measure_message", "scene_json",
-             "scene_message", "slot_layout")]
+             "scene_message", "slot_layout", "user_shader_message")]
 WORKERS = MODEL + MESSAGES + ["renderer/plan", MEASUREMENT, "server/workers"]
 SESSION = WORKERS + ["protocol", "server/video", "server/session", "server/settings"]
 

@@ -1,5 +1,6 @@
 #include "server/commands/option_layer.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -173,7 +174,7 @@ scene::CrossSections crossSectionsFrom(const SceneOptions& options) {
     const auto named = [&](const char* axis) {
         return std::ranges::find(options.sections, axis) != options.sections.end();
     };
-    sections.shown = {named("x"), named("y"), named("z")};
+    sections.shown = glm::bvec3(named("x"), named("y"), named("z"));
     return sections;
 }
 
