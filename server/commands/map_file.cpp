@@ -105,6 +105,19 @@ struct Placed {
     double distance = 1.0;
 };
 
+Result<data::Window> percentiles(const json::value& value, const std::vector<float>& known) {
+    const auto read = numbers(value, 2, "percentiles");
+    if (!read) return read.error();
+    for (const double p : *read) {
+        if (p != std::floor(p) || p < 0.0 || p > 100.0) {
+            return wrong("percentiles", std::to_string(p) + " is no whole number from 0 to 100");
+        }
+    }
+    if (known.empty()) return wrong("percentiles", "the field has no values");
+    return data::Window{.first = known[static_cast<std::size_t>((*read)[0])],
+                        .last = known[static_cast<std::size_t>((*read)[1])]};
+}
+
 Result<Placed> placed(const json::object& object, const MapUsual& usual) {
     Placed found{.window = {.first = usual.window.min, .last = usual.window.max},
                  .distance = usual.distance};
@@ -112,6 +125,12 @@ Result<Placed> placed(const json::object& object, const MapUsual& usual) {
         const auto read = numbers(*value, 2, "window");
         if (!read) return read.error();
         found.window = {.first = (*read)[0], .last = (*read)[1]};
+    }
+    if (const json::value* value = object.if_contains("percentiles")) {
+        if (object.contains("window")) return wrong("percentiles", "there is a window, too");
+        const auto read = percentiles(*value, usual.percentiles);
+        if (!read) return read.error();
+        found.window = *read;
     }
     if (const json::value* value = object.if_contains("distance")) {
         const auto read = number(*value, "distance");
@@ -180,7 +199,8 @@ Result<data::ColourPoint> colourPointFrom(const json::value& item, const std::st
 
 Result<TransferFunction> fromDrawing(const json::object& object, const MapUsual& usual) {
     data::DrawnMap map;
-    auto read = checkKeys(object, {"colours", "opacities", "curve", "window", "distance"});
+    auto read =
+        checkKeys(object, {"colours", "opacities", "curve", "window", "percentiles", "distance"});
     if (!read) return read.error();
     read = forEach(object, "colours", [&](const json::value& item, const std::string& key) {
         const auto point = colourPointFrom(item, key);
@@ -211,7 +231,7 @@ Result<TransferFunction> fromDrawing(const json::object& object, const MapUsual&
 
 Result<TransferFunction> fromTable(const json::object& object, const MapUsual& usual) {
     std::vector<glm::dvec4> entries;
-    auto read = checkKeys(object, {"rgba", "window", "distance"});
+    auto read = checkKeys(object, {"rgba", "window", "percentiles", "distance"});
     if (!read) return read.error();
     read = forEach(object, "rgba", [&](const json::value& item, const std::string& key) {
         const auto rgba = numbers(item, 4, key);
@@ -227,7 +247,7 @@ Result<TransferFunction> fromTable(const json::object& object, const MapUsual& u
 
 Result<TransferFunction> fromLinear(const json::object& object, const MapUsual& usual) {
     constexpr double kUsualOpacity = 0.6;
-    auto read = checkKeys(object, {"linear", "opacity", "window", "distance"});
+    auto read = checkKeys(object, {"linear", "opacity", "window", "percentiles", "distance"});
     if (!read) return read.error();
     const auto rgb = colour(object.at("linear"), "linear");
     if (!rgb) return rgb.error();

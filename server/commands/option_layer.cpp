@@ -76,11 +76,14 @@ Result<data::TransferFunction> mapFrom(const std::string& path, const data::Fiel
     auto text = readTextFile(path);
     if (!text) return std::move(text).error();
     const double diagonal = glm::length(summary.bounds.max - summary.bounds.min);
-    const data::Range range =
-        field == nullptr ? data::Range{.min = 0.0F, .max = 1.0F} : field->range;
-    auto map = parseMap(*text, {.window = scale.domain.value_or(range),
-                                .distance = diagonal > 0.0 ? diagonal / 10.0 : 1.0,
-                                .axis = axisOf(scale, range)});
+    MapUsual usual{.window = {.min = 0.0F, .max = 1.0F},
+                   .distance = diagonal > 0.0 ? diagonal / 10.0 : 1.0};
+    if (field != nullptr) {
+        usual.window = scale.domain.value_or(field->spread.usual);
+        usual.percentiles = field->spread.percentiles;
+        usual.axis = axisOf(scale, field->range);
+    }
+    auto map = parseMap(*text, usual);
     if (!map) return in(path, map.error());
     return map;
 }

@@ -58,6 +58,14 @@ TEST(MapFile, WindowsAndDistancesReplaceTheUsualOnes) {
     EXPECT_EQ(opacity(map, 3.0F, 0.5), 0.0);
 }
 
+TEST(MapFile, PercentilesAreThoseOfTheField) {
+    MapUsual usual = kUsual;
+    for (int p = 0; p <= 100; ++p) usual.percentiles.push_back(static_cast<float>(p * p));
+    const auto map = read(R"({"linear": [1, 1, 1], "percentiles": [10, 90]})", usual);
+    EXPECT_EQ(map.points.front().value, 100.0F);
+    EXPECT_EQ(map.points.back().value, 8100.0F);
+}
+
 TEST(MapFile, LinearFadesIn) {
     const auto map = read(R"({"linear": "#ff0000", "opacity": 0.8})");
     EXPECT_EQ(data::evaluate(map, 10.0F), glm::vec4(0.0F));
@@ -89,6 +97,11 @@ TEST(MapFile, WhatIsWrongIsNamed) {
              Case{R"({"rgba": [[0, 0, 0, 0]], "window": [5, 5]})", "window: 5"},
              Case{R"({"rgba": [[0, 0, 0, 0]], "window": [5]})", "window: is not a list of 2"},
              Case{R"({"rgba": [[0, 0, 0, 0]], "distance": 0})", "distance: 0"},
+             Case{R"({"linear": [1, 1, 1], "percentiles": [1, 99]})", "the field has no values"},
+             Case{R"({"linear": [1, 1, 1], "percentiles": [0.5, 99]})", "percentiles: 0.5"},
+             Case{R"({"linear": [1, 1, 1], "percentiles": [1, 101]})", "percentiles: 101"},
+             Case{R"({"linear": [1, 1, 1], "percentiles": [1, 9], "window": [0, 1]})",
+                  "percentiles: there is a window, too"},
              Case{R"({"linear": 3})", "linear: is neither"},
              Case{R"({"linear": "#ffffff", "opacity": 1.5})", "opacity: is not from 0 to 1"},
              Case{R"({"points": []})", "has no points"},

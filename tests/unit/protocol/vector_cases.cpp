@@ -73,7 +73,8 @@ std::vector<std::pair<std::string, std::string>> serverMeanings() {
         {"dataset_info_mesh",
          R"({"datasetInfo":{"id":"m","name":"m","state":"DATASET_STATE_READY",)"
          R"("kind":"DATASET_KIND_MESH","progress":1,"fields":[{"name":"T","unit":"K","min":-1.5,)"
-         R"("max":2.5,"histogram":[1,0,300],"steps":3},{"name":"id","association":)"
+         R"("max":2.5,"histogram":[1,0,300],"steps":3,)"
+         R"("percentiles":[-1.5,0,2.5],"usualRange":{"min":-1,"max":2}},{"name":"id","association":)"
          R"("ASSOCIATION_CELL","max":9,"steps":1}],"boundsMin":{"x":-1},"boundsMax":)"
          R"({"x":1,"y":2,"z":3},"cells":"224874","vertices":"40960","bytes":"9007199254740993",)"
          R"("version":"2","warnings":["12 cells without volume left out"]}})"},

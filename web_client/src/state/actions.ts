@@ -9,7 +9,7 @@ import {
 import { DatasetKind, type FieldInfo } from "../net/gen/volcast/v1/session_pb";
 import { defaultMap } from "../transfer/presets";
 import { type Axis, axisOf, kStraight } from "../transfer/scale";
-import { scaled, type TransferFunction } from "../transfer/transfer_function";
+import { scaled, stretched, type TransferFunction } from "../transfer/transfer_function";
 import { fitted } from "../view/camera";
 import type { AppState, Edit, MapEdit } from "./app_state";
 import type { ViewDocument } from "./document";
@@ -106,11 +106,31 @@ export function redo(state: AppState): void {
   state.edit.value = redone(state.edit.value);
 }
 
+/** Where nearly all of a field's values are, as the server says. */
+export function usualRangeOf(field: FieldInfo): { min: number; max: number } {
+  return field.usualRange ?? { min: field.min, max: field.max };
+}
+
 /** The map that a field starts with, over what its scale shows. */
 export function freshMap(state: AppState, field: FieldInfo, axis: Axis = kStraight): MapEdit {
-  const low = Math.max(field.min, axis.low);
-  const high = Math.min(field.max, axis.high);
+  const usual = usualRangeOf(field);
+  const low = Math.max(usual.min, axis.low);
+  const high = Math.min(usual.max, axis.high);
   return { map: defaultMap(low, high, state.referenceLength.value), density: 1 };
+}
+
+/** Lays a map out over another range, along its axis; from a high value to a low one turns it round. */
+export function changeRange(
+  state: AppState,
+  first: number,
+  last: number,
+  slot: Slot = "first",
+): void {
+  const axis = axisOfSlot(state, slot);
+  const inside = (value: number): number => Math.min(axis.high, Math.max(axis.low, value));
+  const [from, to] = [inside(first), inside(last)];
+  if (from !== to)
+    changeMap(state, stretched(mapEditOf(state, slot).map, from, to, axis), undefined, slot);
 }
 
 /** Starts a map over, as one step that can be undone. */

@@ -12,7 +12,15 @@ import { Association, type FieldInfo } from "../net/gen/volcast/v1/session_pb";
 import { defaultMap } from "../transfer/presets";
 import { axisOf, positiveDomain } from "../transfer/scale";
 import { stretched, type TransferFunction } from "../transfer/transfer_function";
-import { changeEdit, changeLayer, fieldOf, freshMap, mapEditOf, withLayer } from "./actions";
+import {
+  changeEdit,
+  changeLayer,
+  fieldOf,
+  freshMap,
+  mapEditOf,
+  usualRangeOf,
+  withLayer,
+} from "./actions";
 import type { AppState, MapEdit } from "./app_state";
 import { isEmpty, middleLevel, movedTo, valuesOf } from "./levels";
 import { fittedTo, type Slot } from "./models";
@@ -41,9 +49,10 @@ const key = (dataset: string, field: string): string => JSON.stringify([dataset,
 
 function mapFor(state: AppState, field: FieldInfo): MapEdit {
   const { map, density } = state.edit.value.present;
-  const next = field.max > field.min ? stretched(map, field.min, field.max) : [];
+  const { min, max } = usualRangeOf(field);
+  const next = max > min ? stretched(map, min, max) : [];
   if (next.length > 1) return { map: next, density };
-  return { map: defaultMap(field.min, field.max, state.referenceLength.value), density };
+  return { map: defaultMap(min, max, state.referenceLength.value), density };
 }
 
 /** Shows another field; its map is the one it had, or the shown one over the field's range. */
