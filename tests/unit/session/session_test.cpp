@@ -22,10 +22,12 @@ public:
         measures.push_back(std::move(request));
     }
     void stopMeasuring(std::uint64_t view) override { stopped.push_back(view); }
+    void pick(workers::PickRequest request) override { picks.push_back(std::move(request)); }
     void dropView(std::uint64_t view) override { dropped.push_back(view); }
     [[nodiscard]] workers::RenderStatus status() const override { return {}; }
     std::vector<workers::RenderRequest> requests;
     std::vector<workers::MeasureRequest> measures;
+    std::vector<workers::PickRequest> picks;
     std::vector<std::uint64_t> stopped, dropped;
 };
 
