@@ -8,7 +8,7 @@ import re
 import subprocess
 import sys
 
-SCENE_MODEL = ["renderer/scene/camera", "renderer/scene/default_scene", "renderer/scene/layer_fields",
+SCENE_MODEL = ["renderer/scene/camera", "renderer/scene/channels", "renderer/scene/default_scene", "renderer/scene/layer_fields",
                "renderer/scene/picked", "renderer/scene/ray_models", "renderer/scene/scale", "renderer/scene/scene_diff",
                "renderer/scene/scene", "renderer/scene/validate"]
 BASE = ["renderer/base"]

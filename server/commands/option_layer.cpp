@@ -177,6 +177,11 @@ Result<void> setFields(scene::Layer& layer, const SceneOptions& options,
         if (!map) return std::move(map).error();
         layer.densityMap = *std::move(map);
     }
+    for (const auto& [name, path] : options.channels) {
+        auto map = mapFrom(path, scene::findField(summary, name), {}, summary);
+        if (!map) return std::move(map).error();
+        layer.channels.push_back({.field = name, .map = *std::move(map)});
+    }
     layer.timeStep = options.timeStep;
     if (!options.interval.empty()) {
         layer.interval = data::Range{.min = options.interval[0], .max = options.interval[1]};

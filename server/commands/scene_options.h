@@ -43,6 +43,7 @@ struct SceneOptions {
     std::optional<float> edgeWidth;
     std::vector<float> edgeColour;
     std::optional<float> exposure, extinctionScale;
+    std::vector<std::pair<std::string, std::string>> channels;  ///< A name and its map's file.
     bool light = false;
     std::vector<double> lightPosition;
     std::optional<float> ambient, diffuse, specular, shininess;

@@ -174,6 +174,7 @@ export function MapEditor({ state, slot }: Props) {
   const selected = useSignal(0);
   const layer = state.layer.value;
   if (!layer || mapEditOf(state, slot).map.length === 0) return null;
+  if (layer.channels.length > 0) return null; // Each has a map of its own.
   const showsColours = usesColours(layer, slot);
   const showsOpacity = usesExtinction(layer, slot);
   if (!showsColours && !showsOpacity) return null;
