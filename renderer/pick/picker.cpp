@@ -51,7 +51,10 @@ Result<void> Picker::prepare(const scene::Scene& scene, const Datasets& datasets
     for (const scene::Layer& layer : scene.layers) {
         Known& known = known_[layer.dataset];
         if (known.dataset == nullptr) known.dataset = datasets(layer.dataset);
-        if (known.dataset == nullptr) continue;
+        if (known.dataset == nullptr) {
+            known_.erase(layer.dataset);
+            continue;
+        }
         if (known.summary.fields.empty()) known.summary = data::summarize(*known.dataset);
         summaries.emplace(layer.dataset, known.summary);
         const auto* mesh = std::get_if<data::Mesh>(known.dataset);

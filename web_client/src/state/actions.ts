@@ -9,13 +9,13 @@ import {
 import { DatasetKind, type FieldInfo } from "../net/gen/volcast/v1/session_pb";
 import { defaultMap } from "../transfer/presets";
 import { type Axis, axisOf, kStraight } from "../transfer/scale";
-import { scaled, stretched, type TransferFunction } from "../transfer/transfer_function";
+import { stretched, type TransferFunction } from "../transfer/transfer_function";
 import { fitted } from "../view/camera";
 import type { AppState, Edit, MapEdit } from "./app_state";
 import type { ViewDocument } from "./document";
 import { changed, gestureEnded, redone, startHistory, undone } from "./history";
 import type { Slot } from "./models";
-import { mapOf, orbitOf } from "./scene_message";
+import { drawnFrom, mapOf, orbitOf } from "./scene_message";
 
 /** The ray models that the server draws for the shown kind of data. */
 export function modelsOf(state: AppState): readonly RayModel[] {
@@ -71,8 +71,8 @@ export function axisOfSlot(state: AppState, slot: Slot = "first"): Axis {
   return field ? axisOf(scale, field.min, field.max) : kStraight;
 }
 
-const asPart = (slot: Slot, { map, density }: MapEdit): Partial<Edit> =>
-  slot === "first" ? { map, density } : { second: { map, density } };
+const asPart = (slot: Slot, { map, density, smooth }: MapEdit): Partial<Edit> =>
+  slot === "first" ? { map, density, smooth } : { second: { map, density, smooth } };
 
 /** Changes a map; changes of one `gesture` are undone together. */
 export function changeMap(
@@ -139,10 +139,16 @@ export function resetMap(state: AppState, slot: Slot = "first"): void {
   if (field) changeEdit(state, asPart(slot, freshMap(state, field, axisOfSlot(state, slot))));
 }
 
-/** Extinction as drawn: the map's times the density. */
+/** Smooth: opacities follow a spline; else extinction is straight between the points. */
+export function changeSmooth(state: AppState, smooth: boolean, slot: Slot = "first"): void {
+  const length = smooth ? state.referenceLength.value : undefined;
+  changeEdit(state, asPart(slot, { ...mapEditOf(state, slot), smooth: length }));
+}
+
+/** The map as it is drawn. */
 export function drawnMap(state: AppState, slot: Slot = "first"): TransferFunction {
-  const { map, density } = mapEditOf(state, slot);
-  return density === 1 ? map : scaled(map, density);
+  const layer = state.layer.value;
+  return drawnFrom(mapEditOf(state, slot), slot === "first" ? layer?.scale : layer?.densityScale);
 }
 
 const aspectOf = (state: AppState): number => {
@@ -191,9 +197,9 @@ export function currentDocument(state: AppState): ViewDocument | undefined {
   const orbit = state.orbit.value;
   const home = state.home.value;
   const drawn = state.refusal.value ? state.accepted.value : undefined;
-  const { scene, map, density, second } = drawn ?? state.edit.value.present;
+  const { scene, map, density, smooth, second } = drawn ?? state.edit.value.present;
   if (!scene || !orbit || !home) return undefined;
-  return { scene, orbit, home, edit: { map, density, second } };
+  return { scene, orbit, home, edit: { map, density, smooth, second } };
 }
 
 export function restoreDocument(state: AppState, document: ViewDocument): void {

@@ -39,6 +39,8 @@ export interface PictureInfo {
 export interface MapEdit {
   readonly map: TransferFunction;
   readonly density: number;
+  /** Opacities over this length follow a spline towards the points; absent: straight extinction. */
+  readonly smooth?: number | undefined;
 }
 
 /** The maps of the first layer: of its field, and of its second field where it has one. */

@@ -48,10 +48,10 @@ const leftFields = new Map<string, LeftField>();
 const key = (dataset: string, field: string): string => JSON.stringify([dataset, field]);
 
 function mapFor(state: AppState, field: FieldInfo): MapEdit {
-  const { map, density } = state.edit.value.present;
+  const { map, density, smooth } = state.edit.value.present;
   const { min, max } = usualRangeOf(field);
   const next = max > min ? stretched(map, min, max) : [];
-  if (next.length > 1) return { map: next, density };
+  if (next.length > 1) return { map: next, density, smooth };
   return { map: defaultMap(min, max, state.referenceLength.value), density };
 }
 
@@ -61,9 +61,12 @@ export function changeField(state: AppState, name: string): void {
   const next = dataset?.fields.find((f) => f.name === name);
   const before = state.field.value;
   const layer = state.layer.value;
-  const { scene, map, density } = state.edit.value.present;
+  const { scene, map, density, smooth } = state.edit.value.present;
   if (!dataset || !next || !before || !scene || !layer || next.name === before.name) return;
-  leftFields.set(key(dataset.id, before.name), { map: { map, density }, scale: layer.scale });
+  leftFields.set(key(dataset.id, before.name), {
+    map: { map, density, smooth },
+    scale: layer.scale,
+  });
   const kept = leftFields.get(key(dataset.id, name));
   const part: Partial<Layer> = {
     field: name,

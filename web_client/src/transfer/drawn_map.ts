@@ -1,3 +1,4 @@
+import { opacityFromExtinction } from "./opacity";
 import { OpacityCurve, type OpacityPoint } from "./opacity_curve";
 import { type Axis, kStraight } from "./scale";
 import { type Colour, mixColour } from "./srgb";
@@ -169,4 +170,24 @@ export function fromTable(
   const colours = rgba.map(([r, g, b], i) => ({ position: place(i), value: { r, g, b } }));
   const depths = rgba.map(([, , , a], i) => ({ position: place(i), value: depthOf(a) }));
   return merged(colours, depths, distance, window, axis);
+}
+
+/**
+ * A map whose opacities over `distance` follow a spline towards those of its points; colours stay
+ * straight between them.
+ */
+export function smoothed(map: TransferFunction, distance: number, axis: Axis): TransferFunction {
+  const first = map[0]?.value ?? 0;
+  const last = map[map.length - 1]?.value ?? 0;
+  const span = axis.along(last) - axis.along(first);
+  if (map.length < 3 || !(span > 0)) return map;
+  const placed = map.map((point, i) => ({
+    ...point,
+    position: i === map.length - 1 ? 1 : (axis.along(point.value) - axis.along(first)) / span,
+  }));
+  const opacities = placed.map(({ position, extinction }) => ({
+    position,
+    opacity: opacityFromExtinction(extinction, distance),
+  }));
+  return resolved({ colours: placed, opacities, degree: 3, distance }, { first, last }, axis);
 }

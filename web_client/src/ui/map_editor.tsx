@@ -18,7 +18,7 @@ import { IconButton } from "./icons";
 import { MapInputs } from "./map_inputs";
 import { drawPlot, type PlotBox, rangeOf, valueAt } from "./map_plot";
 import { MapPoints } from "./map_points";
-import { ColourPresets, DensitySlider, OpacityPresets } from "./map_presets";
+import { ColourPresets, DensitySlider, OpacityPresets, SmoothCurve } from "./map_presets";
 import { MapRange } from "./map_range";
 
 interface Props {
@@ -202,6 +202,7 @@ export function MapEditor({ state, slot }: Props) {
       <MapRange state={state} slot={slot} />
       {showsColours && <ColourPresets state={state} slot={slot} />}
       {showsOpacity && <OpacityPresets state={state} slot={slot} />}
+      {showsOpacity && <SmoothCurve state={state} slot={slot} />}
       {showsOpacity && <DensitySlider state={state} slot={slot} />}
       <Hint state={state} slot={slot} />
     </section>
