@@ -7,6 +7,7 @@
 // channel has its own, and their colours add up.
 // Constants: kChannels, 1 to 4; kGathers: what of the model; kEarlyStop; kMaxRaySamples; those of
 // lib/window.glsl, volume/channels.glsl and classify/channel_maps.glsl.
+#include "contract/segment.glsl"
 #include "lib/box.glsl"
 #include "lib/finished.glsl"
 #include "lib/window.glsl"

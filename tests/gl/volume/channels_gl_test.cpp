@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "renderer/plan/effects.h"
+#include "renderer/scene/ray_models.h"
 #include "tests/support/phantoms.h"
 #include "tests/support/render_test.h"
 #include "tests/support/volume_reference.h"

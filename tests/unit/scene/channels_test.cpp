@@ -12,7 +12,8 @@ const data::TransferFunction kMap{{{.value = 0.0F}}};
 data::DatasetSummary volume() {
     data::DatasetSummary summary;
     summary.isMesh = false;
-    summary.fields = {{.name = "red", .unit = {}}, {.name = "green", .unit = {}}};
+    summary.fields = {{.name = "red", .unit = {}, .range = {}},
+                      {.name = "green", .unit = {}, .range = {}}};
     return summary;
 }
 
