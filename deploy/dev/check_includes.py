@@ -8,16 +8,17 @@ import re
 import subprocess
 import sys
 
-SCENE_MODEL = ["renderer/scene/camera", "renderer/scene/default_scene", "renderer/scene/layer_fields",
-               "renderer/scene/ray_models", "renderer/scene/scale", "renderer/scene/scene_diff",
-               "renderer/scene/scene", "renderer/scene/user_shader", "renderer/scene/validate"]
+SCENE_MODEL = ["renderer/scene/camera", "renderer/scene/channels", "renderer/scene/default_scene",
+               "renderer/scene/layer_fields", "renderer/scene/picked", "renderer/scene/ray_models",
+               "renderer/scene/scale", "renderer/scene/scene_diff", "renderer/scene/scene",
+               "renderer/scene/user_shader", "renderer/scene/validate"]
 BASE = ["renderer/base"]
 MODEL = BASE + ["renderer/data", *SCENE_MODEL]
 DRAWING = MODEL + ["renderer/plan", "renderer/gpu", "renderer/shading"]
 MEASUREMENT = "renderer/accuracy/measurement"  # Plain structs, for the server too.
 # Both ends of the channel between server and worker; no GL.
 MESSAGES = [f"renderer/worker/{part}" for part in
-            ("channel", "exit_codes", "frame_message", "measure_message", "scene_json",
+            ("channel", "exit_codes", "frame_message", "measure_message", "pick_message", "scene_json",
              "scene_message", "slot_layout", "user_shader_message")]
 WORKERS = MODEL + MESSAGES + ["renderer/plan", MEASUREMENT, "server/workers"]
 SESSION = WORKERS + ["protocol", "server/video", "server/session", "server/settings"]
@@ -30,6 +31,7 @@ ALLOWED = {
     "renderer/shading": BASE + ["renderer/gpu", "renderer/shading", "shaders/shared"],
     **{part: MODEL for part in SCENE_MODEL},
     "renderer/reference": MODEL + ["renderer/reference"],
+    "renderer/pick": MODEL + ["renderer/plan", "renderer/reference", "renderer/pick"],
     "renderer/plan": MODEL + ["renderer/plan"],
     "renderer/mesh": DRAWING + ["renderer/mesh", "shaders/shared"],
     "renderer/volume": DRAWING + ["renderer/volume", "renderer/mesh/combine_state",

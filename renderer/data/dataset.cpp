@@ -1,94 +1,56 @@
 #include "renderer/data/dataset.h"
 
-#include <algorithm>
-#include <cmath>
 #include <cstring>
 #include <limits>
 #include <span>
+#include <utility>
 
 namespace volcast::data {
 
 namespace {
 
-constexpr std::size_t kBins = 256;
-constexpr std::size_t kMaxSamples = std::size_t{1} << 14;
-
-/// Counts values in equal bins over a range.
-class Histogram {
-public:
-    explicit Histogram(Range range) : range_{range}, counts_(kBins, 0) {}
-
-    void add(double value) {
-        if (std::isnan(value)) return;
-        const double width = static_cast<double>(range_.max) - range_.min;
-        const double t = width > 0.0 ? (value - range_.min) / width : 0.0;
-        const double bin = std::clamp(std::floor(t * kBins), 0.0, static_cast<double>(kBins - 1));
-        ++counts_[static_cast<std::size_t>(bin)];
-    }
-    [[nodiscard]] std::vector<std::uint32_t> take() { return std::move(counts_); }
-
-private:
-    Range range_;
-    std::vector<std::uint32_t> counts_;
-};
-
-/// Calls `visit(i)` for at most kMaxSamples indices below `count`, one in each of as many equal
-/// parts. Where in its part follows the golden ratio: equal steps would meet the same column of
-/// every row of voxels.
-template <class Visit>
-void visitSamples(std::size_t count, const Visit& visit) {
-    constexpr double kGoldenRatio = 0.6180339887498949;
-    const std::size_t samples = std::min(count, kMaxSamples);
-    const double part = static_cast<double>(count) / static_cast<double>(samples);
-    for (std::size_t s = 0; s < samples; ++s) {
-        const double turns = static_cast<double>(s) * kGoldenRatio;
-        const double place = samples < count ? turns - std::floor(turns) : 0.0;
-        visit(
-            std::min(static_cast<std::size_t>((static_cast<double>(s) + place) * part), count - 1));
-    }
-}
-
 FieldSummary summarizeField(const Field& field) {
-    Histogram histogram{field.range};
+    std::vector<float> samples;
     const std::size_t perStep = field.steps.empty() ? 0 : field.steps.front().size();
     visitSamples(perStep * field.steps.size(),
-                 [&](std::size_t i) { histogram.add(field.steps[i / perStep][i % perStep]); });
+                 [&](std::size_t i) { samples.push_back(field.steps[i / perStep][i % perStep]); });
     return {.name = field.name,
             .unit = field.unit,
             .association = field.association,
             .range = field.range,
             .steps = static_cast<int>(field.steps.size()),
-            .histogram = histogram.take(),
+            .spread = spreadOf(std::move(samples), field.range),
             .cellsWithoutValue = field.cellsWithoutValue};
 }
 
 template <class T>
-double valueAt(std::span<const std::byte> voxels, std::size_t i) {
+float valueAt(std::span<const std::byte> voxels, std::size_t i) {
     T value{};
     std::memcpy(&value, voxels.data() + i * sizeof(T), sizeof(T));
-    return static_cast<double>(value);
+    return static_cast<float>(value);
 }
 
-double voxelAt(std::span<const std::byte> voxels, VoxelType type, std::size_t i) {
+float voxelAt(std::span<const std::byte> voxels, VoxelType type, std::size_t i) {
     switch (type) {
         case VoxelType::kU8: return valueAt<std::uint8_t>(voxels, i);
         case VoxelType::kU16: return valueAt<std::uint16_t>(voxels, i);
         case VoxelType::kI16: return valueAt<std::int16_t>(voxels, i);
         case VoxelType::kF32: return valueAt<float>(voxels, i);
     }
-    return 0.0;
+    return 0.0F;
 }
 
 FieldSummary summarizeChannel(const Channel& channel, VoxelType type) {
-    Histogram histogram{channel.range};
-    visitSamples(channel.voxels.size() / voxelBytes(type),
-                 [&](std::size_t i) { histogram.add(voxelAt(channel.voxels.span(), type, i)); });
+    std::vector<float> samples;
+    visitSamples(channel.voxels.size() / voxelBytes(type), [&](std::size_t i) {
+        samples.push_back(voxelAt(channel.voxels.span(), type, i));
+    });
     return {.name = channel.name,
             .unit = channel.unit,
             .association = Association::kVertex,
             .range = channel.range,
             .steps = 1,
-            .histogram = histogram.take()};
+            .spread = spreadOf(std::move(samples), channel.range)};
 }
 
 void grow(Box& box, const glm::dvec3& point) {

@@ -7,6 +7,7 @@
 #include <glm/glm.hpp>
 
 #include "renderer/data/mesh.h"
+#include "renderer/data/value_samples.h"
 #include "renderer/data/volume.h"
 
 namespace volcast::data {
@@ -26,8 +27,8 @@ struct FieldSummary {
     Association association = Association::kVertex;  ///< kVertex for voxel channels.
     Range range;
     int steps = 1;
-    std::vector<std::uint32_t> histogram;  ///< Counts in equal bins over `range`.
-    std::uint64_t cellsWithoutValue = 0;   ///< Cells of a mesh with a NaN in any step.
+    Spread spread = {};                   ///< Of samples of its values.
+    std::uint64_t cellsWithoutValue = 0;  ///< Cells of a mesh with a NaN in any step.
 };
 
 /// What is worth knowing of a dataset without holding it; all that plans and clients need.
@@ -49,7 +50,7 @@ struct DatasetSummary {
     std::uint64_t bytes = 0;  ///< Size of the data as drawn.
 };
 
-/// Histograms have 256 bins over at most 2^14 evenly spread samples.
+/// Spreads are those of at most kMaxSamples evenly spread samples.
 DatasetSummary summarize(const Dataset& dataset);
 
 /// What users should know of the data before they trust a picture of it; one sentence each.

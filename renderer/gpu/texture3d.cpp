@@ -12,9 +12,13 @@ struct Layout {
 };
 
 Layout layoutOf(VoxelFormat format) {
-    return format == VoxelFormat::kRg32F
-               ? Layout{.internal = GL_RG32F, .external = GL_RG, .bytes = 8}
-               : Layout{.internal = GL_R32F, .external = GL_RED, .bytes = 4};
+    switch (format) {
+        case VoxelFormat::kRg32F: return {.internal = GL_RG32F, .external = GL_RG, .bytes = 8};
+        case VoxelFormat::kRgba32F:
+            return {.internal = GL_RGBA32F, .external = GL_RGBA, .bytes = 16};
+        case VoxelFormat::kF32: break;
+    }
+    return {.internal = GL_R32F, .external = GL_RED, .bytes = 4};
 }
 
 }  // namespace

@@ -10,7 +10,7 @@
 
 namespace volcast::gpu {
 
-enum class VoxelFormat { kF32, kRg32F };
+enum class VoxelFormat { kF32, kRg32F, kRgba32F };
 
 struct Texture3DDesc {
     glm::ivec3 size{1};  ///< Voxels along x, y, z; each in [1, DeviceLimits::texture3DSide].

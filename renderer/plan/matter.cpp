@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "renderer/plan/effects.h"
+#include "renderer/scene/channels.h"
 #include "renderer/scene/scale.h"
 
 namespace volcast::plan {
@@ -66,6 +67,23 @@ data::Range extinctionOf(const Matter& matter) {
     return extinctionOver(own ? matter.maps.density : matter.maps.main, range);
 }
 
+/// Of all channels that are shown together.
+data::Range extinctionOfChannels(const Layer& layer, const DatasetSummary& summary) {
+    data::Range sum{.min = 0.0F, .max = 0.0F};
+    for (const scene::ChannelMap* channel : scene::shownChannels(layer)) {
+        const FieldSummary* field = scene::findField(summary, channel->field);
+        data::Range range = field->range;
+        if (layer.sampling == scene::Sampling::kTricubic) {
+            const float overshoot = kTricubicOvershoot * (range.max - range.min);
+            range = {.min = range.min - overshoot, .max = range.max + overshoot};
+        }
+        const data::Range one = extinctionOver(channel->map, range);
+        sum.min += one.min;
+        sum.max += one.max;
+    }
+    return sum;
+}
+
 }  // namespace
 
 Matter matterOf(const Layer& layer, const DatasetSummary& summary) {
@@ -76,7 +94,10 @@ Matter matterOf(const Layer& layer, const DatasetSummary& summary) {
                   .maps = scene::layerMaps(layer, summary),
                   .extinction = {},
                   .diagonal = glm::length(summary.bounds.max - summary.bounds.min)};
-    if (absorbs(layer.model)) matter.extinction = extinctionOf(matter);
+    if (absorbs(layer.model)) {
+        matter.extinction =
+            layer.channels.empty() ? extinctionOf(matter) : extinctionOfChannels(layer, summary);
+    }
     return matter;
 }
 

@@ -8,6 +8,7 @@
 #include "renderer/plan/effects.h"
 #include "renderer/plan/matter.h"
 #include "renderer/plan/shared_walks.h"
+#include "renderer/scene/channels.h"
 #include "renderer/scene/layer_fields.h"
 #include "renderer/scene/ray_models.h"
 #include "renderer/scene/scale.h"
@@ -23,6 +24,9 @@ void planVisible(LayerPlan& plan, const Matter& matter) {
     if (!matter.layer.visible) {
         plan.drawn = false;
         add(plan, kVisible, false, "the layer is hidden");
+    } else if (!matter.layer.channels.empty() && scene::shownChannels(matter.layer).empty()) {
+        plan.drawn = false;
+        add(plan, kVisible, false, "all of its channels are hidden");
     } else if (matter.layer.model == RayModel::kVolume && matter.extinction.max <= 0.0F) {
         plan.drawn = false;
         add(plan, kVisible, false,

@@ -2,6 +2,7 @@
 
 #include "renderer/plan/effects.h"
 #include "renderer/plan/matter.h"
+#include "renderer/scene/channels.h"
 #include "renderer/scene/ray_models.h"
 
 namespace volcast::plan {
@@ -36,7 +37,18 @@ std::string reasonToPassOver(RayModel model) {
     }
 }
 
+/// Channels that are drawn together.
+void planChannels(LayerPlan& plan, const Layer& layer) {
+    const std::size_t shown = scene::shownChannels(layer).size();
+    add(plan, kChannels, shown > 0,
+        shown > 0 ? std::to_string(shown) + " channel(s), each by its own map"
+                  : "one channel is drawn");
+}
+
 void planBricks(LayerPlan& plan, const Matter& matter) {
+    if (plan.has(kChannels)) {
+        return add(plan, kEmptyBricks, false, "bricks of several channels are not compared");
+    }
     const glm::ivec3 intervals = matter.summary.voxels - 1;
     const bool several =
         std::max({intervals.x, intervals.y, intervals.z}) > data::Volume::kBrickSize;
@@ -92,6 +104,7 @@ void planLight(LayerPlan& plan, const Layer& volume) {
 void planVoxels(LayerPlan& plan, const Matter& matter) {
     plan.evaluator = evaluatorFor(matter.layer.voxelEvaluator);
     plan.integrator = plan.evaluator == Evaluator::kVolumeMarch ? "march" : "slices";
+    planChannels(plan, matter.layer);
     planInterpolation(plan, matter.layer);
     plan.method = methodOfSamples(
         matter.layer.model, plan.has(kInterpolation) && plan.evaluator == Evaluator::kVolumeMarch);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "renderer/scene/channels.h"
 #include "renderer/scene/scale.h"
 
 namespace volcast::scene {
@@ -111,6 +112,26 @@ Result<const volume::ChannelGpu*> CachedDataset::channel(gpu::Device& device, co
         if (!uploaded) return uploaded.error();
         kept =
             channels_.emplace(channel.name, Kept<volume::ChannelGpu>{std::move(*uploaded)}).first;
+    }
+    kept->second.frame = frame;
+    return &kept->second.part;
+}
+
+Result<const volume::ChannelsGpu*> CachedDataset::channels(gpu::Device& device, const Layer& layer,
+                                                           std::uint64_t frame) {
+    const auto& volume = std::get<data::Volume>(data_);
+    std::vector<const data::Channel*> wanted;
+    std::string key;
+    for (const ChannelMap* shown : shownChannels(layer)) {
+        wanted.push_back(&named(volume.channels, shown->field));
+        key += std::to_string(shown->field.size()) + ":" + shown->field;
+    }
+    auto kept = channelSets_.find(key);
+    if (kept == channelSets_.end()) {
+        trim(channelSets_, frame);
+        auto uploaded = volume::ChannelsGpu::upload(device, volume, wanted);
+        if (!uploaded) return uploaded.error();
+        kept = channelSets_.emplace(key, Kept<volume::ChannelsGpu>{std::move(*uploaded)}).first;
     }
     kept->second.frame = frame;
     return &kept->second.part;

@@ -11,6 +11,7 @@
 #include "renderer/scene/layer_fields.h"
 #include "renderer/scene/mesh_part.h"
 #include "renderer/scene/scene.h"
+#include "renderer/volume/channels.h"
 #include "renderer/volume/march.h"
 
 namespace volcast::scene {
@@ -37,6 +38,10 @@ public:
     Result<const volume::ChannelGpu*> channel(gpu::Device& device, const Layer& layer,
                                               std::uint64_t frame);
 
+    /// The channels that `layer` shows together. Errors: as volume::ChannelsGpu::upload.
+    Result<const volume::ChannelsGpu*> channels(gpu::Device& device, const Layer& layer,
+                                                std::uint64_t frame);
+
 private:
     template <class T>
     struct Kept {
@@ -49,6 +54,7 @@ private:
     std::map<std::string, MeshPart> parts_;                                ///< By partKey().
     std::map<std::string, Kept<std::unique_ptr<mesh::FieldGpu>>> fields_;  ///< By keyOf().
     std::map<std::string, Kept<volume::ChannelGpu>> channels_;
+    std::map<std::string, Kept<volume::ChannelsGpu>> channelSets_;  ///< By their names.
 };
 
 }  // namespace volcast::scene

@@ -18,14 +18,14 @@ struct Portion {
 /// `of` (a value to a number) over the data; from the histogram.
 template <class Function>
 std::vector<Portion> portions(const data::FieldSummary& field, Function of) {
-    const std::size_t bins = field.histogram.size();
+    const std::size_t bins = field.spread.histogram.size();
     std::vector<Portion> found;
     for (std::size_t i = 0; i < bins; ++i) {
         const double part = (static_cast<double>(i) + 0.5) / static_cast<double>(bins);
-        const double value = std::lerp(static_cast<double>(field.range.min),
-                                       static_cast<double>(field.range.max), part);
+        const double value = std::lerp(static_cast<double>(field.spread.usual.min),
+                                       static_cast<double>(field.spread.usual.max), part);
         found.push_back({.number = static_cast<double>(of(static_cast<float>(value))),
-                         .count = static_cast<double>(field.histogram[i])});
+                         .count = static_cast<double>(field.spread.histogram[i])});
     }
     return found;
 }
@@ -67,14 +67,14 @@ double lengthThrough(const data::Box& bounds) {
 
 /// The length that is to be half opaque at the middle of the range, so that a ray through all of
 /// the data meets an optical depth of about kDepth. Extinction rises linearly, so the mean is
-/// 2 ln 2 / length * (mean of the field as a part of its range). Data that is nearly all at one end
-/// of its range is not followed beyond kLeast and kMost.
+/// 2 ln 2 / length * (mean of the field as a part of its usual range). Data that is nearly all at
+/// one end of it is not followed beyond kLeast and kMost.
 double halfOpaqueLength(const data::Box& bounds, const data::FieldSummary& field) {
     constexpr double kDepth = 2.0;
     constexpr double kLeast = 0.05;
     constexpr double kMost = 0.5;
-    const double min = field.range.min;
-    const double width = static_cast<double>(field.range.max) - min;
+    const double min = field.spread.usual.min;
+    const double width = static_cast<double>(field.spread.usual.max) - min;
     const double fraction = mean(
         portions(field, [&](float value) { return width > 0.0 ? (value - min) / width : 0.5; }));
     return 2.0 * std::log(2.0) * lengthThrough(bounds) * std::clamp(fraction, kLeast, kMost) /
@@ -124,10 +124,10 @@ Layer defaultLayer(const std::string& datasetId, const data::DatasetSummary& sum
     const data::FieldSummary* shown = fieldNamed(summary, field);
     if (shown == nullptr) return layer;
     layer.field = shown->name;
-    layer.map =
-        data::defaultTransferFunction(shown->range, halfOpaqueLength(summary.bounds, *shown));
+    layer.map = data::defaultTransferFunction(shown->spread.usual,
+                                              halfOpaqueLength(summary.bounds, *shown));
     layer.coloured = model == RayModel::kSurface || model == RayModel::kWireframe;
-    layer.levels.values = {std::midpoint(shown->range.min, shown->range.max)};
+    layer.levels.values = {std::midpoint(shown->spread.usual.min, shown->spread.usual.max)};
     expose(layer, summary);
     return layer;
 }

@@ -1,8 +1,31 @@
+#include "renderer/scene/channels.h"
 #include "renderer/scene/layer_draw.h"
+#include "renderer/scene/layer_fields.h"
+#include "renderer/scene/scale.h"
 
 namespace volcast::scene {
+namespace {
+
+/// Brings several channels and their maps.
+Result<void> prepareChannels(DrawContext& context, LayerDraw& draw) {
+    std::vector<data::TransferFunction> maps;
+    for (const ChannelMap* shown : shownChannels(*draw.layer)) {
+        const data::FieldSummary* field = findField(draw.dataset->summary(), shown->field);
+        maps.push_back(scaled(shown->map, {Scale{}, field->range}));
+    }
+    if (auto set = draw.state->channels.set(*context.device, maps); !set) return set;
+    const std::vector<shading::Constant> constants = draw.state->channels.constants();
+    draw.constants.insert(draw.constants.end(), constants.begin(), constants.end());
+    const auto channels = draw.dataset->channels(*context.device, *draw.layer, context.frame);
+    if (!channels) return channels.error();
+    draw.channels = *channels;
+    return {};
+}
+
+}  // namespace
 
 Result<void> prepareVoxels(DrawContext& context, LayerDraw& draw) {
+    if (!draw.layer->channels.empty()) return prepareChannels(context, draw);
     const Result<const volume::ChannelGpu*> channel =
         draw.dataset->channel(*context.device, *draw.layer, context.frame);
     if (!channel) return channel.error();
@@ -21,6 +44,10 @@ Result<void> drawVoxels(const DrawContext& context, const Frame& frame, const La
                                     .filterInHardware = context.filterInHardware,
                                     .constants = draw.constants,
                                     .target = &target};
+    if (draw.channels != nullptr) {
+        draw.state->channels.bind();
+        return volume::drawChannels(inputs, *draw.channels);
+    }
     switch (draw.plan->evaluator) {
         case plan::Evaluator::kCrossSections: return volume::drawCrossSections(inputs);
         case plan::Evaluator::kVolumeSlices:

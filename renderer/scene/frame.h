@@ -22,7 +22,8 @@ struct LayerDraw {
     const mesh::FieldGpu* field = nullptr;
     const mesh::FieldGpu* density = nullptr;
     const volume::ChannelGpu* channel = nullptr;
-    std::vector<float> levels;  // Of an isosurface.
+    const volume::ChannelsGpu* channels = nullptr;  // Instead, where several are drawn together.
+    std::vector<float> levels;                      // Of an isosurface.
     std::vector<shading::Constant> constants;
 };
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "renderer/scene/channels.h"
 #include "renderer/scene/ray_models.h"
 #include "renderer/scene/scale.h"
 
@@ -129,6 +130,7 @@ Result<void> validate(const Layer& layer, const std::string& path) {
     if (valid && (colours(layer) || !layer.map.points.empty())) {
         valid = validateMap(layer.map, path + ".transfer_function");
     }
+    if (valid) valid = validateChannels(layer, path);
     if (valid && !layer.densityMap.points.empty()) {
         valid = validateMap(layer.densityMap, path + ".density_function");
     }
@@ -366,6 +368,7 @@ Result<void> validate(const Scene& scene, const Summaries& summaries) {
             valid = found->second.isMesh ? validateMesh(layer, found->second, pathOf(i))
                                          : validateVolume(layer, pathOf(i));
         }
+        if (valid) valid = validateChannels(layer, found->second, pathOf(i));
         if (!valid) return valid.error();
     }
     return {};

@@ -7,6 +7,7 @@
 
 #include "renderer/mesh/projection.h"
 #include "renderer/mesh/walk.h"
+#include "renderer/scene/channel_table.h"
 #include "renderer/scene/map_table.h"
 #include "renderer/scene/picture.h"
 #include "renderer/scene/view_blocks.h"
@@ -17,6 +18,7 @@ namespace volcast::scene {
 /// What a view keeps on the GPU for one layer.
 struct LayerState {
     MapTable map;
+    ChannelTable channels;  ///< Of several channels of a volume.
     std::unique_ptr<mesh::WalkState> walk = mesh::WalkState::create();
     volume::SlicesState slices;
     std::unique_ptr<mesh::ProjectionState> projection = mesh::ProjectionState::create();

@@ -11,6 +11,7 @@
 #include "renderer/scene/validate.h"
 #include "renderer/worker/frame_message.h"
 #include "renderer/worker/measure_message.h"
+#include "renderer/worker/pick_message.h"
 #include "renderer/worker/scene_message.h"
 #include "renderer/worker/warm_up.h"
 
@@ -83,6 +84,7 @@ Result<void> Loop::handle(const wire::ToWorker& message, const Descriptors& desc
         case wire::ToWorker::kRemoveDataset: {
             meter_.forget(message.remove_dataset().id());
             evidence_.forget(message.remove_dataset().id());
+            picker_.forget(message.remove_dataset().id());
             renderer_.removeDataset(message.remove_dataset().id());
             return {};
         }
@@ -98,6 +100,7 @@ Result<void> Loop::handle(const wire::ToWorker& message, const Descriptors& desc
         }
         case wire::ToWorker::kWarmUp: return warmUp(message.warm_up().step());
         case wire::ToWorker::kMeasure: return measure(message.measure());
+        case wire::ToWorker::kPick: return pick(message.pick());
         case wire::ToWorker::kStopMeasuring: {
             meter_.stop();
             return {};
@@ -114,6 +117,7 @@ Result<void> Loop::addDataset(const std::string& id, const Descriptors& descript
     if (auto dataset = data::unpack(descriptors.front()); dataset) {
         meter_.forget(id);
         evidence_.forget(id);
+        picker_.forget(id);
         renderer_.addDataset(id, *std::move(dataset));
         answer.mutable_dataset_added()->set_id(id);
         answer.mutable_dataset_added()->set_ms(millisecondsSince(start));
@@ -211,6 +215,24 @@ Result<void> Loop::measure(const wire::Measure& request) {
     } else {
         answer.mutable_measuring()->set_request(request.request());
     }
+    return reply(answer);
+}
+
+Result<void> Loop::pick(const wire::Pick& request) {
+    using Place = std::optional<scene::Picked>;
+    const auto job = jobFrom(request);
+    const auto place =
+        job ? picker_.pick(job->scene, job->size, job->pixel,
+                           [this](const std::string& id) { return renderer_.dataset(id); })
+            : Result<Place>{job.error()};
+    if (!place) {
+        wire::Failed failed;
+        failed.set_request(request.request());
+        return refuse(place.error(), std::move(failed));
+    }
+    wire::FromWorker answer;
+    answer.mutable_picked()->set_request(request.request());
+    *answer.mutable_picked()->mutable_place() = toMessage(*place);
     return reply(answer);
 }
 

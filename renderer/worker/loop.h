@@ -6,6 +6,7 @@
 #include "renderer/accuracy/evidence.h"
 #include "renderer/accuracy/meter.h"
 #include "renderer/gpu/device.h"
+#include "renderer/pick/picker.h"
 #include "renderer/scene/render.h"
 #include "renderer/worker/channel.h"
 #include "renderer/worker/exit_codes.h"
@@ -44,6 +45,7 @@ private:
     Result<internal::v1::Rendered> draw(const internal::v1::Render& request,
                                         const Descriptors& descriptors);
     Result<void> measure(const internal::v1::Measure& request);
+    Result<void> pick(const internal::v1::Pick& request);
     /// Answers with `failed`; kDeviceLost where the device is lost, by `error` or by itself.
     Result<void> refuse(const Error& error, internal::v1::Failed failed);
     /// kDeviceLost where the GPU was reset.
@@ -55,6 +57,7 @@ private:
     scene::Renderer& renderer_;
     accuracy::Meter meter_;
     accuracy::EvidenceKeeper evidence_;
+    pick::Picker picker_;
     Slots slots_;
     bool deviceLost_ = false;
 };

@@ -2,6 +2,8 @@
 
 #include <cstdio>
 #include <memory>
+#include <sstream>
+#include <string>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -48,6 +50,12 @@ json::array numbers(const glm::dvec3& v) {
     return {v.x, v.y, v.z};
 }
 
+std::string number(float value) {
+    std::ostringstream text;
+    text << value;
+    return text.str();
+}
+
 json::object asJson(const workers::ImportedDataset& imported) {
     const data::DatasetSummary& s = imported.summary;
     json::object result{{"format", imported.format}, {"kind", s.isMesh ? "mesh" : "volume"}};
@@ -71,6 +79,8 @@ json::object asJson(const workers::ImportedDataset& imported) {
                          {"association", s.isMesh ? text(field.association) : "voxel"},
                          {"min", field.range.min},
                          {"max", field.range.max},
+                         {"usual_min", field.spread.usual.min},
+                         {"usual_max", field.spread.usual.max},
                          {"steps", field.steps}};
         if (s.isMesh) row["cells_without_value"] = field.cellsWithoutValue;
         fields.push_back(std::move(row));
@@ -104,10 +114,16 @@ void print(const workers::ImportedDataset& imported) {
     for (const data::FieldSummary& field : s.fields) {
         const std::string steps =
             field.steps == 1 ? "" : ", " + std::to_string(field.steps) + " steps";
-        std::printf("field     \"%s\" per %s, %g to %g%s%s%s\n", field.name.c_str(),
+        const data::Range& usual = field.spread.usual;
+        const std::string outliers =
+            usual == field.range
+                ? ""
+                : ", nearly all from " + number(usual.min) + " to " + number(usual.max);
+        std::printf("field     \"%s\" per %s, %g to %g%s%s%s%s\n", field.name.c_str(),
                     s.isMesh ? text(field.association) : "voxel",
                     static_cast<double>(field.range.min), static_cast<double>(field.range.max),
-                    field.unit.empty() ? "" : " ", field.unit.c_str(), steps.c_str());
+                    field.unit.empty() ? "" : " ", field.unit.c_str(), outliers.c_str(),
+                    steps.c_str());
     }
     for (const std::string& warning : imported.warnings)
         std::printf("note      %s\n", warning.c_str());

@@ -5,8 +5,10 @@
 #include <utility>
 
 #include "renderer/scene/default_scene.h"
+#include "renderer/scene/layer_fields.h"
 #include "renderer/scene/ray_models.h"
 #include "server/commands/files.h"
+#include "server/commands/map_file.h"
 #include "server/commands/render_scene.h"
 
 namespace volcast::commands {
@@ -33,14 +35,6 @@ Result<std::string> chosenField(const SceneOptions& options, const data::Dataset
     return summary.fields.empty() ? std::string{} : summary.fields.front().name;
 }
 
-Result<data::TransferFunction> mapFrom(const std::string& path) {
-    auto text = readTextFile(path);
-    if (!text) return std::move(text).error();
-    auto map = data::parseTransferFunction(*text);
-    if (!map) return in(path, map.error());
-    return map;
-}
-
 Result<scene::Scale> scaleFrom(const ScaleOptions& options, const std::string& option) {
     scene::Scale scale;
     if (options.kind == "log") scale.kind = scene::Scale::Kind::kLog;
@@ -54,6 +48,44 @@ Result<scene::Scale> scaleFrom(const ScaleOptions& options, const std::string& o
         scale.domain = data::Range{.min = options.domain[0], .max = options.domain[1]};
     }
     return scale;
+}
+
+/// What a scale does to values of a field, and its inverse; none for a linear one.
+data::Axis axisOf(const scene::Scale& scale, const data::Range& range) {
+    const data::Range domain = scale.domain.value_or(range);
+    const double low = domain.min, width = static_cast<double>(domain.max) - low;
+    const double exponent = scale.exponent;
+    switch (scale.kind) {
+        case scene::Scale::Kind::kLinear: return {};
+        case scene::Scale::Kind::kLog:
+            return {.along = [](double value) { return std::log(value); },
+                    .back = [](double place) { return std::exp(place); }};
+        case scene::Scale::Kind::kPower: break;
+    }
+    return {
+        .along =
+            [=](double value) { return std::pow(std::max(value - low, 0.0) / width, exponent); },
+        .back = [=](double place) { return low + width * std::pow(place, 1.0 / exponent); }};
+}
+
+/// The map of a file, for a field as a layer reads it; opacities are over a tenth of the data's
+/// diagonal, as in the page.
+Result<data::TransferFunction> mapFrom(const std::string& path, const data::FieldSummary* field,
+                                       const scene::Scale& scale,
+                                       const data::DatasetSummary& summary) {
+    auto text = readTextFile(path);
+    if (!text) return std::move(text).error();
+    const double diagonal = glm::length(summary.bounds.max - summary.bounds.min);
+    MapUsual usual{.window = {.min = 0.0F, .max = 1.0F},
+                   .distance = diagonal > 0.0 ? diagonal / 10.0 : 1.0};
+    if (field != nullptr) {
+        usual.window = scale.domain.value_or(field->spread.usual);
+        usual.percentiles = field->spread.percentiles;
+        usual.axis = axisOf(scale, field->range);
+    }
+    auto map = parseMap(*text, usual);
+    if (!map) return in(path, map.error());
+    return map;
 }
 
 /// Errors: kInvalidArgument where a value is no number.
@@ -128,23 +160,31 @@ Result<void> setEvaluation(scene::Layer& layer, const SceneOptions& options) {
 }
 
 /// What the options say of fields, maps and scales.
-Result<void> setFields(scene::Layer& layer, const SceneOptions& options) {
-    if (!options.map.empty()) {
-        auto map = mapFrom(options.map);
-        if (!map) return std::move(map).error();
-        layer.map = *std::move(map);
-    }
-    if (!options.densityMap.empty()) {
-        auto map = mapFrom(options.densityMap);
-        if (!map) return std::move(map).error();
-        layer.densityMap = *std::move(map);
-    }
+Result<void> setFields(scene::Layer& layer, const SceneOptions& options,
+                       const data::DatasetSummary& summary) {
     auto scale = scaleFrom(options.scale, "--scale");
     if (!scale) return std::move(scale).error();
     layer.scale = *scale;
     auto densityScale = scaleFrom(options.densityScale, "--density-scale");
     if (!densityScale) return std::move(densityScale).error();
     layer.densityScale = *densityScale;
+    if (!options.map.empty()) {
+        auto map =
+            mapFrom(options.map, scene::findField(summary, layer.field), layer.scale, summary);
+        if (!map) return std::move(map).error();
+        layer.map = *std::move(map);
+    }
+    if (!options.densityMap.empty()) {
+        auto map = mapFrom(options.densityMap, scene::findField(summary, layer.densityField),
+                           layer.densityScale, summary);
+        if (!map) return std::move(map).error();
+        layer.densityMap = *std::move(map);
+    }
+    for (const auto& [name, path] : options.channels) {
+        auto map = mapFrom(path, scene::findField(summary, name), {}, summary);
+        if (!map) return std::move(map).error();
+        layer.channels.push_back({.field = name, .map = *std::move(map)});
+    }
     layer.timeStep = options.timeStep;
     if (!options.interval.empty()) {
         layer.interval = data::Range{.min = options.interval[0], .max = options.interval[1]};
@@ -208,7 +248,7 @@ Result<scene::Layer> layerFor(const SceneOptions& options, const data::DatasetSu
     const scene::RayModel model = options.model.empty() ? usual : modelFrom(options.model);
     scene::Layer layer = scene::defaultLayer(kRenderDataset, summary, *field, model);
     layer.densityField = options.densityField;
-    if (auto set = setFields(layer, options); !set) return std::move(set).error();
+    if (auto set = setFields(layer, options, summary); !set) return std::move(set).error();
     if (auto set = setEvaluation(layer, options); !set) return std::move(set).error();
     auto levels = levelsFrom(options, layer.levels);
     if (!levels) return std::move(levels).error();

@@ -111,8 +111,13 @@ void addChoices(Group group, SceneOptions& o) {
 void addWhat(Group group, SceneOptions& o) {
     group.add("--field", o.field, "Field or channel by name; none: the first");
     group.add("--time-step", o.timeStep, "From 0")->check(CLI::NonNegativeNumber);
-    group.add("--tf", o.map, "Transfer function: lines `value r g b sigma`");
+    group.add("--tf", o.map,
+              "Transfer function: a file of lines `value r g b sigma`, or of JSON (drawn maps, "
+              "tables; see server/commands/README.md)");
     addScale(group, "--scale", "--field", o.scale);
+    group.add(
+        "--channel", o.channels,
+        "NAME FILE: a channel and its transfer function, as --tf; given again: drawn together");
     group.add("--density-field", o.densityField,
               "Second field: extinction of volume and xray, colour of an isosurface");
     group.add("--density-tf", o.densityMap, "Its transfer function; none: that of --tf");

@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "renderer/scene/scene.h"
@@ -45,6 +46,7 @@ struct SceneOptions {
     std::optional<float> edgeWidth;
     std::vector<float> edgeColour;
     std::optional<float> exposure, extinctionScale;
+    std::vector<std::pair<std::string, std::string>> channels;  ///< A name and its map's file.
     bool light = false;
     std::vector<double> lightPosition;
     std::optional<float> ambient, diffuse, specular, shininess;

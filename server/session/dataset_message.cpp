@@ -25,7 +25,11 @@ void describeField(v1::FieldInfo& message, const data::FieldSummary& field) {
     message.set_association(associationOf(field.association));
     message.set_min(field.range.min);
     message.set_max(field.range.max);
-    message.mutable_histogram()->Assign(field.histogram.begin(), field.histogram.end());
+    const data::Spread& spread = field.spread;
+    message.mutable_histogram()->Assign(spread.histogram.begin(), spread.histogram.end());
+    message.mutable_percentiles()->Assign(spread.percentiles.begin(), spread.percentiles.end());
+    message.mutable_usual_range()->set_min(spread.usual.min);
+    message.mutable_usual_range()->set_max(spread.usual.max);
     message.set_steps(static_cast<std::uint32_t>(field.steps));
 }
 

@@ -69,6 +69,7 @@ void Session::receive(std::span<const std::byte> bytes, Form form, TimePoint now
         case v1::ClientMessage::kExplain: return explain(message->explain());
         case v1::ClientMessage::kMeasureAccuracy:
             return measureAccuracy(message->measure_accuracy());
+        case v1::ClientMessage::kPick: return pick(message->pick());
         case v1::ClientMessage::kPing: {
             v1::ServerMessage reply;
             reply.mutable_pong()->set_token(message->ping().token());
@@ -175,6 +176,10 @@ void Session::openView(const v1::OpenView& message, TimePoint now) {
                  .measured = onStrand([global](Session& self, std::uint64_t tag,
                                                const Result<accuracy::Measurement>& result) {
                      self.measured(global, tag, result);
+                 }),
+                 .picked = onStrand([global](Session& self, std::uint64_t tag,
+                                             const Result<std::optional<scene::Picked>>& result) {
+                     self.picked(global, tag, result);
                  }),
                  .recovering = onStrand([global](Session& self) { self.recovering(global); })});
     const std::uint32_t number = message.view();

@@ -67,6 +67,13 @@ public:
     void end(Closing closing);
 
 private:
+    static constexpr std::size_t kDrawnKept = 8;
+    /// What a picture was drawn of.
+    struct Drawn {
+        std::uint64_t inputSeq = 0;
+        scene::Scene scene;
+        scene::PictureSize size{0};
+    };
     struct View {
         std::uint32_t number = 0;
         std::uint64_t global = 0;  ///< Its number in the whole server.
@@ -77,6 +84,9 @@ private:
         v1::ViewState state = v1::VIEW_STATE_ACTIVE;
         bool opened = false;  ///< The client was told the scene.
         TimePoint inputAt{};
+        std::deque<Drawn> drawn = {};  ///< Newest last; pixels are picked of these.
+        v1::Pick picking = {};         ///< The newest that was asked for.
+        std::uint64_t pickTag = 0;     ///< Of it.
     };
 
     Session(Shared& shared, std::uint64_t number, SessionHooks hooks);
@@ -91,6 +101,7 @@ private:
 
     void explain(const v1::Explain& message);
     void measureAccuracy(const v1::MeasureAccuracy& message);
+    void pick(const v1::Pick& message);
 
     void datasetChanged(const v1::DatasetInfo& info);
     // News come with the view's number in the whole server: its own may be in use again.
@@ -98,6 +109,8 @@ private:
     void failed(std::uint64_t global, std::uint64_t tag, const Error& error);
     void measured(std::uint64_t global, std::uint64_t tag,
                   const Result<accuracy::Measurement>& result);
+    void picked(std::uint64_t global, std::uint64_t tag,
+                const Result<std::optional<scene::Picked>>& result);
     void recovering(std::uint64_t global);
     void encoded(std::uint64_t global, EncodedPicture picture);
 
@@ -105,6 +118,7 @@ private:
     void refuse(View& view, const Error& error, v1::ErrorCode code);
     void setState(View& view, v1::ViewState state, const std::string& text);
     void advance(View& view, TimePoint now);
+    static void remember(View& view, const DrawState& state);
     void measureNext(View& view);
     void stopMeasuring(View& view, const std::string& why);
     void startEncode(View& view, EncodeTask task);

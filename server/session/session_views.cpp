@@ -112,6 +112,7 @@ void Session::encoded(std::uint64_t global, EncodedPicture picture) {
 void Session::advance(View& view, TimePoint now) {
     std::uint64_t tag = 0;
     if (auto state = view.frames.takeDraw(now, tag)) {
+        remember(view, *state);
         shared_.render.submit({.view = view.global,
                                .tag = tag,
                                .scene = std::move(state->scene),

@@ -42,6 +42,12 @@ workers::RenderEvents ViewRouter::events() {
                 const ViewTarget target = find(view);
                 if (target.measured) target.measured(tag, std::move(result));
             },
+        .picked =
+            [this](std::uint64_t view, std::uint64_t tag,
+                   Result<std::optional<scene::Picked>> result) {
+                const ViewTarget target = find(view);
+                if (target.picked) target.picked(tag, std::move(result));
+            },
         .recovering =
             [this](const std::vector<std::uint64_t>& views) {
                 for (const std::uint64_t view : views) {

@@ -14,6 +14,7 @@ struct ViewTarget {
     std::function<void(workers::RenderedFrame)> rendered;
     std::function<void(std::uint64_t tag, Error)> failed;
     std::function<void(std::uint64_t tag, Result<accuracy::Measurement>)> measured = {};
+    std::function<void(std::uint64_t tag, Result<std::optional<scene::Picked>>)> picked = {};
     std::function<void()> recovering = {};
 };
 

@@ -92,9 +92,19 @@ public:
         wake();
     }
 
+    void pick(PickRequest request) override {
+        {
+            const std::scoped_lock lock{mutex_};
+            const std::uint64_t view = request.view;
+            inbox_.picks[view] = std::move(request);
+        }
+        wake();
+    }
+
     void dropView(std::uint64_t view) override {
         {
             const std::scoped_lock lock{mutex_};
+            inbox_.picks.erase(view);
             inbox_.requests.erase(view);
             inbox_.measures.erase(view);
             inbox_.droppedViews.push_back(view);

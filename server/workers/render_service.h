@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,7 +12,9 @@
 #include "renderer/base/file_descriptor.h"
 #include "renderer/base/result.h"
 #include "renderer/plan/plan.h"
+#include "renderer/scene/picked.h"
 #include "renderer/scene/scene.h"
+#include "renderer/worker/pick_message.h"
 
 namespace volcast::workers {
 
@@ -35,6 +38,13 @@ struct MeasureRequest {
     std::uint64_t view = 0;
     std::uint64_t tag = 0;  ///< Comes back with the result.
     accuracy::Job job;
+};
+
+/// A pixel to pick, in the name of a view.
+struct PickRequest {
+    std::uint64_t view = 0;
+    std::uint64_t tag = 0;  ///< Comes back with the place.
+    worker::PickJob job;
 };
 
 struct WorkDone {
@@ -87,6 +97,9 @@ struct RenderEvents {
     /// workers were lost over it, or one by a part of it that missed the frame's deadline.
     std::function<void(std::uint64_t view, std::uint64_t tag, Result<accuracy::Measurement>)>
         measured = {};
+    /// What was asked of pick(); empty: the pixel shows no data. kDeviceLost: the worker was lost.
+    std::function<void(std::uint64_t view, std::uint64_t tag, Result<std::optional<scene::Picked>>)>
+        picked = {};
     /// The worker of these views was lost; their last requests are drawn again by themselves.
     std::function<void(std::vector<std::uint64_t> views)> recovering = {};
 };
@@ -120,6 +133,8 @@ public:
     /// the view's request. dropView() takes it back, too.
     virtual void measure(MeasureRequest request) = 0;
     virtual void stopMeasuring(std::uint64_t view) = 0;
+    /// Between pictures; replaces a request of the view that waits, which then is not answered.
+    virtual void pick(PickRequest request) = 0;
     virtual void dropView(std::uint64_t view) = 0;
     [[nodiscard]] virtual RenderStatus status() const = 0;
 

@@ -11,6 +11,7 @@
 #include "renderer/worker/exit_codes.h"
 #include "renderer/worker/frame_message.h"
 #include "renderer/worker/measure_message.h"
+#include "renderer/worker/pick_message.h"
 
 namespace volcast::workers {
 
@@ -118,6 +119,7 @@ void Supervisor::accept(Inbox& inbox) {
     for (const std::uint64_t view : inbox.droppedViews) {
         views_.drop(view);
         stopMeasure(view);
+        picks_.erase(view);
         if (main_) main_->dropView(view);
     }
     for (auto& [view, timed] : inbox.requests) {
@@ -125,6 +127,7 @@ void Supervisor::accept(Inbox& inbox) {
     }
     for (const std::uint64_t view : inbox.stoppedMeasures) stopMeasure(view);
     for (auto& [view, request] : inbox.measures) measures_.submit(std::move(request));
+    for (auto& [view, request] : inbox.picks) picks_[view] = std::move(request);
 }
 
 void Supervisor::change(const Inbox::DatasetChange& change) {
@@ -177,6 +180,9 @@ void Supervisor::handle(Worker& worker, const WorkerProcess::Answer& answer) {
     if (answer.has_measured()) {
         return finishMeasure(answer.measured().request(),
                              worker::measurementFrom(answer.measured()));
+    }
+    if (answer.has_picked()) {
+        return finishPick(answer.picked().request(), worker::pickedFrom(answer.picked().place()));
     }
     // One step at a time, so that a spare that is needed now draws soon.
     if (answer.has_warmed_up() && answer.warmed_up().more() && &worker == &spare_) {
@@ -237,6 +243,7 @@ void Supervisor::refuse(const internal::v1::Failed& failed) {
         return;
     }
     if (measures_.inHand()) return finishMeasure(failed.request(), error);
+    if (pickInHand_) return finishPick(failed.request(), error);
     if (!inFlight_ || failed.request() != inFlight_->number) {
         return lose(main_, "refused a picture nobody asked for");
     }
@@ -246,8 +253,10 @@ void Supervisor::refuse(const internal::v1::Failed& failed) {
 }
 
 void Supervisor::dispatch() {
-    while (main_ && main_->ready() && !inFlight_ && !measures_.inHand()) {
+    while (main_ && main_->ready() && !inFlight_ && !measures_.inHand() && !pickInHand_) {
+        if (!std::exchange(justPicked_, false) && dispatchPick()) return;
         auto next = views_.next();
+        if (!next && dispatchPick()) return;
         if (!next) return dispatchMeasure();
         const RenderRequest& request = next->request;
         auto asked = main_->render(nextNumber_, request, settings_.frameDeadline);
@@ -305,6 +314,7 @@ void Supervisor::startFailed(const Error& error) {
     const Error lost =
         fail(ErrorCode::kDeviceLost, "the lost GL worker cannot be replaced: " + error.message);
     for (const MeasureRequest& request : measures_.takeAll()) tell(request, lost);
+    for (const auto& [view, request] : std::exchange(picks_, {})) tell(request, lost);
     for (const RenderRequest& request : views_.takeAll()) {
         if (!events_.failed) break;
         events_.failed(request.view, request.tag, lost);
@@ -337,6 +347,7 @@ void Supervisor::lose(Worker& worker, const std::string& reason) {
 void Supervisor::loseMain() {
     ++generation_;
     const auto unmeasured = measures_.lost(Clock::now());
+    const auto unpicked = std::exchange(pickInHand_, std::nullopt);
     auto inFlight = std::exchange(inFlight_, std::nullopt);
     std::optional<RenderRequest> request;
     if (inFlight) request = std::move(inFlight->request);
@@ -344,6 +355,10 @@ void Supervisor::loseMain() {
     startWorkers();
     dispatch();
     if (events_.recovering && !loss.views.empty()) events_.recovering(loss.views);
+    if (unpicked) {
+        tell(unpicked->request,
+             fail(ErrorCode::kDeviceLost, "the GL worker was lost: " + lastLoss_));
+    }
     for (const MeasureRequest& givenUp : unmeasured) {
         tell(givenUp, fail(ErrorCode::kDeviceLost, "the GL worker was lost: " + lastLoss_));
     }

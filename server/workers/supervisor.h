@@ -25,6 +25,7 @@ struct Inbox {
     std::vector<std::uint64_t> stoppedMeasures;        ///< By view, before those below.
     std::map<std::uint64_t, TimedRequest> requests;    ///< Newest of each view.
     std::map<std::uint64_t, MeasureRequest> measures;  ///< Newest of each view.
+    std::map<std::uint64_t, PickRequest> picks;        ///< Newest of each view.
     bool stop = false;
 };
 
@@ -59,6 +60,11 @@ private:
         double waitMs = 0.0;
     };
 
+    struct PickInHand {
+        PickRequest request;
+        std::uint64_t number = 0;
+    };
+
     void wait();
     void accept(Inbox& inbox);  ///< Empties it.
     void change(const Inbox::DatasetChange& change);
@@ -72,6 +78,9 @@ private:
     void finishMeasure(std::uint64_t number, const Result<accuracy::Measurement>& result);
     void stopMeasure(std::uint64_t view);
     void tell(const MeasureRequest& request, const Result<accuracy::Measurement>& result) const;
+    bool dispatchPick();  ///< False: none waits.
+    void finishPick(std::uint64_t number, const Result<std::optional<scene::Picked>>& result);
+    void tell(const PickRequest& request, const Result<std::optional<scene::Picked>>& result) const;
     void checkTimes();
     void startWorkers();
     void start(Worker& worker);
@@ -95,8 +104,11 @@ private:
     std::map<std::string, SharedDescriptor> datasets_;
     ViewQueue views_;
     std::optional<InFlight> inFlight_;
-    MeasureQueue measures_;            ///< Nothing is in hand beside inFlight_.
-    std::uint64_t measureNumber_ = 0;  ///< Of the part in hand.
+    MeasureQueue measures_;                       ///< Nothing is in hand beside inFlight_.
+    std::uint64_t measureNumber_ = 0;             ///< Of the part in hand.
+    std::map<std::uint64_t, PickRequest> picks_;  ///< That wait, by view.
+    std::optional<PickInHand> pickInHand_;        ///< Nothing else is in hand then.
+    bool justPicked_ = false;                     ///< A picture comes before the next pick.
     std::uint64_t nextNumber_ = 1;
 
     BackOff backOff_;

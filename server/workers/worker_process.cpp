@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "renderer/worker/measure_message.h"
+#include "renderer/worker/pick_message.h"
 #include "renderer/worker/scene_message.h"
 
 namespace volcast::workers {
@@ -149,6 +150,17 @@ Result<void> WorkerProcess::measure(std::uint64_t number, const accuracy::Job& j
     return {};
 }
 
+Result<void> WorkerProcess::pick(std::uint64_t number, const worker::PickJob& job,
+                                 milliseconds limit) {
+    Message message;
+    *message.mutable_pick() = worker::toMessage(job);
+    message.mutable_pick()->set_request(number);
+    if (auto fits = checkSize(message); !fits) return fits;
+    outbox_.push_back({.message = std::move(message), .descriptor = nullptr});
+    owe(Owed::kPick, limit);
+    return {};
+}
+
 void WorkerProcess::stopMeasuring() {
     Message message;
     message.mutable_stop_measuring();
@@ -179,6 +191,7 @@ Result<void> WorkerProcess::settle(const Answer& answer) {
         case Answer::kWarmedUp: expected = owed == Owed::kWarmUp; break;
         case Answer::kMeasured:
         case Answer::kMeasuring: expected = owed == Owed::kMeasure; break;
+        case Answer::kPicked: expected = owed == Owed::kPick; break;
         case Answer::kFailed: expected = owed && owed != Owed::kPong; break;
         case Answer::BODY_NOT_SET: break;
     }
@@ -239,6 +252,7 @@ std::string WorkerProcess::deadlineMissed() const {
         case Owed::kFrame: return "missed its deadline of " + limit + " for a frame";
         case Owed::kPong: return "gave no sign of life for " + limit;
         case Owed::kMeasure: return "missed its deadline of " + limit + " for a measurement";
+        case Owed::kPick: return "missed its deadline of " + limit + " for a pixel";
         case Owed::kWarmUp: return "missed its deadline of " + limit + " for building shaders";
     }
     return {};

@@ -48,6 +48,9 @@ public:
     Result<void> measure(std::uint64_t number, const accuracy::Job& job,
                          std::chrono::milliseconds limit);
     void stopMeasuring();
+    /// Errors: kLimitExceeded (the scene is too large for the channel).
+    Result<void> pick(std::uint64_t number, const worker::PickJob& job,
+                      std::chrono::milliseconds limit);
 
     /// Errors: the channel is closed or broken.
     Result<void> flush();
@@ -82,7 +85,7 @@ public:
     [[nodiscard]] std::optional<ExitStatus> tryReap() noexcept { return child_.tryReap(); }
 
 private:
-    enum class Owed { kReady, kDataset, kFrame, kPong, kWarmUp, kMeasure };
+    enum class Owed { kReady, kDataset, kFrame, kPong, kWarmUp, kMeasure, kPick };
     struct Debt {
         Owed what;
         std::chrono::milliseconds limit;

@@ -23,6 +23,7 @@ import { openScreen } from "./video/screen";
 import type { PictureReport } from "./video/worker_messages";
 import { withOtherProjection } from "./view/camera";
 import { controlCamera } from "./view/camera_control";
+import { followHover, type HoverPlace, pixelAt } from "./view/hover";
 import { type KeyAction, meaningOf, takesKey } from "./view/keyboard";
 import { createPictureElement, keepHeight } from "./view/picture_element";
 import { followSize, limited } from "./view/viewport";
@@ -183,6 +184,20 @@ controlCamera(picture.element, {
     state.input.at = inputAt;
     resetCamera(state);
   },
+});
+
+const hover = signal<HoverPlace | undefined>(undefined);
+followHover(picture.element, (place) => {
+  hover.value = place;
+});
+// Anew for every picture: what lies under a pointer at rest changes with it.
+effect(() => {
+  const shown = state.picture.value;
+  const pixel = hover.value && shown && pixelAt(hover.value, shown.width, shown.height);
+  untracked(() => {
+    if (pixel) session.pick(shown.inputSeq, pixel.x, pixel.y);
+    else session.stopPicking();
+  });
 });
 
 const kKeyActions: Readonly<Record<KeyAction, () => void>> = {

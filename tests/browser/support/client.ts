@@ -115,7 +115,9 @@ export class Client {
   /** Shows or hides what lies over the picture; the page's policy allows no style of ours. */
   async #coverPicture(visibility: "hidden" | ""): Promise<void> {
     await this.page.evaluate((value) => {
-      for (const part of document.querySelectorAll<HTMLElement>(".tools, .readout, .notices")) {
+      for (const part of document.querySelectorAll<HTMLElement>(
+        ".tools, .readout, .picked, .notices",
+      )) {
         part.style.visibility = value;
       }
       const picture = document.querySelector<HTMLElement>(".picture");

@@ -54,6 +54,30 @@ TEST(RenderCommand, UsesTheTransferFunctionOfTheFile) {
     }
 }
 
+TEST(RenderCommand, AMapThatIsDrawnIsTheSameMapInPoints) {
+    const Folder folder;
+    const std::string drawn = folder.write(
+        "drawn.json",
+        R"({"linear": [1, 1, 1], "opacity": 0.75, "window": [0, 2], "distance": 0.5})");
+    const std::string table = folder.write(
+        "table.json",
+        R"({"rgba": [[1, 1, 1, 0.75], [0, 0, 0, 0]], "window": [2, 0], "distance": 0.5})");
+    const auto picture = [&](const std::string& map) {
+        const Outcome run = render({"demo:volume", "--model", "mip", "--size", "40", "40", "--tf",
+                                    map, "--raw", folder.file("a.f32")});
+        EXPECT_EQ(run.exitCode, 0) << run.err;
+        return floatsOf(folder.file("a.f32"));
+    };
+    const std::vector<float> one = picture(drawn), other = picture(table);
+    ASSERT_EQ(one.size(), other.size());
+    float most = 0.0F;
+    for (std::size_t i = 0; i < one.size(); ++i) {
+        EXPECT_NEAR(one[i], other[i], 1e-6F);  // Sums of float32 in another order.
+        most = std::max(most, one[i]);
+    }
+    EXPECT_GT(most, 0.1F);
+}
+
 TEST(RenderCommand, FramesPrintOneJsonLineWithTheKeysOfTheOtherPrograms) {
     const Outcome run = render({"demo:mesh", "--size", "32", "32", "--frames", "3"});
     ASSERT_EQ(run.exitCode, 0) << run.err;
@@ -199,6 +223,8 @@ TEST(RenderCommand, NamesFilesThatCannotBeReadOrWritten) {
     const Folder folder;
     const std::string camera = folder.write("camera.json", kCamera);
     const std::string map = folder.write("broken.tf", "0 1 1 1 1\n0.5 red\n");
+    const std::string flat =
+        folder.write("flat.json", R"({"linear": "#fff000", "window": [3, 3]})");
     struct Case {
         std::vector<std::string> words;
         std::string named;
@@ -209,6 +235,7 @@ TEST(RenderCommand, NamesFilesThatCannotBeReadOrWritten) {
           Case{{"demo:volume", "--camera", camera, "--tf", "/nonexistent/a.tf"},
                "/nonexistent/a.tf"},
           Case{{"demo:volume", "--tf", map}, "broken.tf"},
+          Case{{"demo:volume", "--tf", flat}, "flat.json: window: 3"},
           Case{{"demo:volume", "--scene", "/nonexistent/s.json"}, "/nonexistent/s.json"},
           Case{{"demo:volume", "--png", "/nonexistent/a.png"}, "/nonexistent/a.png"},
           Case{{"demo:volume", "--raw", "/proc/a.f32"}, "/proc/a.f32"},

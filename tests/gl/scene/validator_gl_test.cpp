@@ -301,6 +301,19 @@ void Validator::addOtherPasses() {
     }
     addPass(shading::kFullScreenVertex, "lib/resolve.glsl", {});
     addPass(shading::kFullScreenVertex, "volume/filter_probe.glsl", {});
+    for (int variant = 0; variant < 24; ++variant) {
+        std::vector<Constant> constants = support::layerConstants(variant);
+        constants.insert(constants.end(), {{"kGathers", variant % 4},
+                                           {"kSampling", variant / 8},
+                                           {"kFilterInHardware", bit(variant, 2)},
+                                           {"kChannels", 1 + variant % 4},
+                                           {"kChannelSearch", 0xe4},
+                                           {"kEarlyStop", bit(variant, 2)},
+                                           {"kClipPlanes", bit(variant, 0) ? 6 : 0},
+                                           {"kClipsAtStart", true},
+                                           {"kMaxRaySamples", plan::kMaxRaySamples}});
+        addPass(shading::kFullScreenVertex, "volume/march_channels.glsl", std::move(constants));
+    }
 }
 
 TEST_F(Validator, EveryProgramIsGlslToAnIndependentCompiler) {

@@ -287,7 +287,7 @@ TEST(MeshBuilder, NanIsKeptCountedAndOutsideTheRange) {
     EXPECT_EQ(mesh.fields[0].range, (Range{0.0F, 1.0F}));
     const DatasetSummary summary = summarize(Dataset{mesh});
     std::uint64_t counted = 0;
-    for (const auto count : summary.fields[0].histogram) counted += count;
+    for (const auto count : summary.fields[0].spread.histogram) counted += count;
     EXPECT_EQ(counted, 26U) << "all but the one";
     const std::vector<std::string> warnings = warningsOf(summary);
     ASSERT_EQ(warnings.size(), 3U);

@@ -122,10 +122,10 @@ TEST(DatasetSummary, HistogramCountsEveryValueOfSmallData) {
     input.size = {4, 1, 1};
     input.channels.push_back({.name = "c", .unit = "", .voxels = bytesOf<float>({0, 1, 1, 256})});
     const auto fields = summarize(buildVolume(input).value()).fields;
-    ASSERT_EQ(fields[0].histogram.size(), 256U);
-    EXPECT_EQ(fields[0].histogram[0], 1U);
-    EXPECT_EQ(fields[0].histogram[1], 2U);
-    EXPECT_EQ(fields[0].histogram[255], 1U);
+    ASSERT_EQ(fields[0].spread.histogram.size(), 256U);
+    EXPECT_EQ(fields[0].spread.histogram[0], 1U);
+    EXPECT_EQ(fields[0].spread.histogram[1], 2U);
+    EXPECT_EQ(fields[0].spread.histogram[255], 1U);
 }
 
 // 2^14 equal steps through rows of 2^k voxels would meet but one or a few columns.
@@ -143,7 +143,7 @@ TEST(DatasetSummary, HistogramMeetsAllColumnsOfLargeData) {
     for (int quarter = 0; quarter < 4; ++quarter) {
         std::uint32_t count = 0;
         for (std::size_t i = 0; i < 64; ++i) {
-            count += fields[0].histogram[64 * static_cast<std::size_t>(quarter) + i];
+            count += fields[0].spread.histogram[64 * static_cast<std::size_t>(quarter) + i];
         }
         EXPECT_NEAR(count, 1 << 12, 64) << quarter;
         counted += count;

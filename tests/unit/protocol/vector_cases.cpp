@@ -52,6 +52,7 @@ std::vector<std::pair<std::string, std::string>> clientMeanings() {
         {"update_nothing", R"({"update":{"view":7,"inputSeq":"4"}})"},
         {"close_view", R"({"closeView":{"view":7}})"},
         {"ack", R"({"ack":{"view":7,"sequence":41,"holdUs":16700,"decodeUs":4700,"queue":1}})"},
+        {"pick", R"({"pick":{"view":7,"inputSeq":"9007199254740993","x":8191,"y":12}})"},
         {"ping", R"({"ping":{"token":"9007199254740993"}})"},
         {"no_body", "{}"},
     };
@@ -73,7 +74,8 @@ std::vector<std::pair<std::string, std::string>> serverMeanings() {
         {"dataset_info_mesh",
          R"({"datasetInfo":{"id":"m","name":"m","state":"DATASET_STATE_READY",)"
          R"("kind":"DATASET_KIND_MESH","progress":1,"fields":[{"name":"T","unit":"K","min":-1.5,)"
-         R"("max":2.5,"histogram":[1,0,300],"steps":3},{"name":"id","association":)"
+         R"("max":2.5,"histogram":[1,0,300],"steps":3,)"
+         R"("percentiles":[-1.5,0,2.5],"usualRange":{"min":-1,"max":2}},{"name":"id","association":)"
          R"("ASSOCIATION_CELL","max":9,"steps":1}],"boundsMin":{"x":-1},"boundsMax":)"
          R"({"x":1,"y":2,"z":3},"cells":"224874","vertices":"40960","bytes":"9007199254740993",)"
          R"("version":"2","warnings":["12 cells without volume left out"]}})"},
@@ -83,6 +85,13 @@ std::vector<std::pair<std::string, std::string>> serverMeanings() {
         {"dataset_info_failed",
          R"({"datasetInfo":{"id":"x.vtu","name":"x.vtu","state":"DATASET_STATE_FAILED",)"
          R"("error":"x.vtu: ends after 12 bytes"}})"},
+        {"picked_cell",
+         R"({"picked":{"view":7,"inputSeq":"41","x":8191,"y":12,"layer":"main","values":[)"
+         R"({"field":"T","value":-1.5},{"field":"p","value":1e+30}],"position":{"x":1,"y":-2.5},)"
+         R"("distance":3.25,"cell":0,"colour":{"r":0.5,"g":1}}})"},
+        {"picked_voxel", R"({"picked":{"view":7,"inputSeq":"41","layer":"main","values":[)"
+                         R"({"field":"f"}],"position":{},"voxel":[1,0,67],"colour":{}}})"},
+        {"picked_nothing", R"({"picked":{"view":7,"inputSeq":"41","x":3,"y":4}})"},
         {"view_opened", R"({"viewOpened":{"view":7,"scene":)" + scene + "}}"},
         {"view_status_recovering",
          R"({"viewStatus":{"view":7,"state":"VIEW_STATE_RECOVERING","message":"worker lost"}})"},

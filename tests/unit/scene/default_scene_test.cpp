@@ -18,7 +18,9 @@ data::DatasetSummary cube() {
     summary.fields = {{.name = "f",
                        .unit = {},
                        .range = {.min = -1.0F, .max = 3.0F},
-                       .histogram = std::vector<std::uint32_t>(256, 10)}};
+                       .spread = {.percentiles = {},
+                                  .usual = {.min = -1.0F, .max = 3.0F},
+                                  .histogram = std::vector<std::uint32_t>(256, 10)}}};
     return summary;
 }
 

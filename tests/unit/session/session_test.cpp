@@ -22,10 +22,12 @@ public:
         measures.push_back(std::move(request));
     }
     void stopMeasuring(std::uint64_t view) override { stopped.push_back(view); }
+    void pick(workers::PickRequest request) override { picks.push_back(std::move(request)); }
     void dropView(std::uint64_t view) override { dropped.push_back(view); }
     [[nodiscard]] workers::RenderStatus status() const override { return {}; }
     std::vector<workers::RenderRequest> requests;
     std::vector<workers::MeasureRequest> measures;
+    std::vector<workers::PickRequest> picks;
     std::vector<std::uint64_t> stopped, dropped;
 };
 
@@ -41,7 +43,7 @@ Result<workers::ImportedDataset> importCube(
     imported.summary.spacing = glm::dvec3{0.25};
     data::FieldSummary field;
     field.name = "f";
-    field.range = {.min = 0.0F, .max = 1.0F};
+    field.range = field.spread.usual = {.min = 0.0F, .max = 1.0F};
     imported.summary.fields.push_back(field);
     return imported;
 }
@@ -198,6 +200,60 @@ TEST_F(SessionTest, WhatFailsToBeMeasuredIsARowWithTheReasonAndTheNextIsMeasured
     say(R"({"update":{"view":4,"inputSeq":"2","viewport":{"width":9,"height":9}}})");
     drawLast();
     EXPECT_NE(waitFor("CODEC_JPEG"), "");
+}
+
+TEST_F(SessionTest, APixelIsPickedOfTheFrameThatIsNamed) {
+    openView();
+    drawLast();
+    ASSERT_NE(waitFor("CODEC_JPEG"), "");
+    say(R"({"update":{"view":4,"inputSeq":"2","viewport":{"width":20,"height":10}}})");
+    ASSERT_EQ(render.requests.size(), 2U);
+    say(R"({"pick":{"view":4,"inputSeq":"1","x":7,"y":5}})");
+    ASSERT_EQ(render.picks.size(), 1U);
+    EXPECT_EQ(render.picks[0].job.size, glm::ivec2(8, 6));
+    EXPECT_EQ(render.picks[0].job.pixel, glm::ivec2(7, 5));
+    EXPECT_EQ(render.picks[0].job.scene, render.requests[0].scene);
+    const scene::Picked picked{.layer = "main", .values = {{.field = "f", .value = 0.25}}};
+    events.picked(render.picks[0].view, render.picks[0].tag, std::optional{picked});
+    const std::string said = waitFor("picked");
+    EXPECT_NE(said.find(R"("view":4)"), std::string::npos) << said;
+    EXPECT_NE(said.find(R"("inputSeq":"1")"), std::string::npos) << said;
+    EXPECT_NE(said.find(R"("value":0.25)"), std::string::npos) << said;
+}
+
+TEST_F(SessionTest, OfSeveralPixelsTheNewestAloneIsAnswered) {
+    openView();
+    drawLast();
+    ASSERT_NE(waitFor("CODEC_JPEG"), "");
+    say(R"({"pick":{"view":4,"x":1}})");
+    say(R"({"pick":{"view":4,"x":2}})");
+    ASSERT_EQ(render.picks.size(), 2U);
+    for (const auto& asked : render.picks) {
+        events.picked(asked.view, asked.tag, std::optional<scene::Picked>{});
+    }
+    EXPECT_NE(waitFor("picked").find(R"("x":2)"), std::string::npos);
+    say(R"({"pick":{"view":4,"x":3}})");
+    events.picked(render.picks[2].view, render.picks[2].tag,
+                  fail(ErrorCode::kDeviceLost, "the GL worker was lost: killed"));
+    EXPECT_NE(waitFor("the GL worker was lost"), "");
+}
+
+TEST_F(SessionTest, OnlyTheNewestPicturesCanBePicked) {
+    openView();
+    for (int input = 2; input < 12; ++input) {
+        drawLast();
+        ASSERT_NE(waitFor("CODEC_"), "");
+        say(R"({"ack":{"view":4,"sequence":)" + std::to_string(input - 1) + "}}");
+        say(R"({"update":{"view":4,"inputSeq":")" + std::to_string(input) +
+            R"(","viewport":{"width":)" + std::to_string(input) + R"(,"height":9}}})");
+        ASSERT_EQ(render.requests.size(), static_cast<std::size_t>(input));
+    }
+    say(R"({"pick":{"view":4,"inputSeq":"2"}})");
+    EXPECT_NE(waitFor("is none of the newest 8 pictures of view 4"), "");
+    say(R"({"pick":{"view":4,"inputSeq":"5"}})");
+    EXPECT_EQ(render.picks.size(), 1U);
+    say(R"({"pick":{"view":4,"inputSeq":"5","x":5}})");
+    EXPECT_NE(waitFor("lies outside of a picture of 5 x 9"), "");
 }
 
 TEST_F(SessionTest, RepliesThatNobodyReadsAreBounded) {

@@ -11,6 +11,7 @@ import type { Scene } from "./gen/volcast/v1/scene_pb";
 import {
   ClientMessageSchema,
   DatasetState,
+  type Picked,
   type ServerMessage,
   ServerMessageSchema,
   ViewState,
@@ -66,6 +67,8 @@ export class Session {
   #greeted = false;
   /** Asked for and not opened yet. */
   #wish: Wish | undefined;
+  /** The pixel whose answer is waited for or shown. */
+  #picking: { readonly inputSeq: bigint; readonly x: number; readonly y: number } | undefined;
   /** The newest settings that were sent, and the Update they went with. */
   #sentEdit: { readonly inputSeq: bigint; readonly edit: Edit } | undefined;
 
@@ -120,6 +123,19 @@ export class Session {
   drawAgain(): void {
     if (this.#view !== undefined) this.mark("scene");
     else if (this.#greeted && !this.#opening) this.#open();
+  }
+
+  /** Asks what a pixel of the picture of `inputSeq` shows; the answer is in `state.picked`. */
+  pick(inputSeq: bigint, x: number, y: number): void {
+    if (this.#view === undefined) return;
+    this.#picking = { inputSeq, x, y };
+    this.#send({ case: "pick", value: { view: this.#view, inputSeq, x, y } });
+  }
+
+  /** The answer that may still come is of no use. */
+  stopPicking(): void {
+    this.#picking = undefined;
+    this.#state.picked.value = undefined;
   }
 
   acknowledge(view: number, sequence: number, holdMs: number, decodeMs: number, queue: number) {
@@ -259,10 +275,19 @@ export class Session {
       case "viewStatus":
         this.#viewStatus(body.value);
         break;
+      case "picked":
+        this.#picked(body.value);
+        break;
       case "error":
         this.#error(body.value);
         break;
     }
+  }
+
+  #picked(picked: Picked): void {
+    const asked = this.#picking;
+    if (picked.view !== this.#view || picked.x !== asked?.x || picked.y !== asked?.y) return;
+    this.#state.picked.value = picked;
   }
 
   #opened(view: number, scene: Scene): void {
@@ -297,6 +322,8 @@ export class Session {
   }
 
   #error(error: ErrorMessage): void {
+    // A pixel of a picture that newer ones have pushed out: the next picture is asked again.
+    if (error.field === "input_seq" && error.inputSeq === this.#picking?.inputSeq) return;
     if (error.inputSeq > 0n) this.#pacer.answered(error.inputSeq);
     const text = sentenceOf(error);
     if (this.#opening && error.view === this.#opening.view) this.#giveUpOpening(text);

@@ -9,13 +9,13 @@ import {
 import { DatasetKind, type FieldInfo } from "../net/gen/volcast/v1/session_pb";
 import { defaultMap } from "../transfer/presets";
 import { type Axis, axisOf, kStraight } from "../transfer/scale";
-import { scaled, type TransferFunction } from "../transfer/transfer_function";
+import { stretched, type TransferFunction } from "../transfer/transfer_function";
 import { fitted } from "../view/camera";
 import type { AppState, Edit, MapEdit } from "./app_state";
 import type { ViewDocument } from "./document";
 import { changed, gestureEnded, redone, startHistory, undone } from "./history";
 import type { Slot } from "./models";
-import { mapOf, orbitOf } from "./scene_message";
+import { drawnFrom, mapOf, orbitOf } from "./scene_message";
 
 /** The ray models that the server draws for the shown kind of data. */
 export function modelsOf(state: AppState): readonly RayModel[] {
@@ -71,8 +71,8 @@ export function axisOfSlot(state: AppState, slot: Slot = "first"): Axis {
   return field ? axisOf(scale, field.min, field.max) : kStraight;
 }
 
-const asPart = (slot: Slot, { map, density }: MapEdit): Partial<Edit> =>
-  slot === "first" ? { map, density } : { second: { map, density } };
+const asPart = (slot: Slot, { map, density, smooth }: MapEdit): Partial<Edit> =>
+  slot === "first" ? { map, density, smooth } : { second: { map, density, smooth } };
 
 /** Changes a map; changes of one `gesture` are undone together. */
 export function changeMap(
@@ -106,11 +106,31 @@ export function redo(state: AppState): void {
   state.edit.value = redone(state.edit.value);
 }
 
+/** Where nearly all of a field's values are, as the server says. */
+export function usualRangeOf(field: FieldInfo): { min: number; max: number } {
+  return field.usualRange ?? { min: field.min, max: field.max };
+}
+
 /** The map that a field starts with, over what its scale shows. */
 export function freshMap(state: AppState, field: FieldInfo, axis: Axis = kStraight): MapEdit {
-  const low = Math.max(field.min, axis.low);
-  const high = Math.min(field.max, axis.high);
+  const usual = usualRangeOf(field);
+  const low = Math.max(usual.min, axis.low);
+  const high = Math.min(usual.max, axis.high);
   return { map: defaultMap(low, high, state.referenceLength.value), density: 1 };
+}
+
+/** Lays a map out over another range, along its axis; from a high value to a low one turns it round. */
+export function changeRange(
+  state: AppState,
+  first: number,
+  last: number,
+  slot: Slot = "first",
+): void {
+  const axis = axisOfSlot(state, slot);
+  const inside = (value: number): number => Math.min(axis.high, Math.max(axis.low, value));
+  const [from, to] = [inside(first), inside(last)];
+  if (from !== to)
+    changeMap(state, stretched(mapEditOf(state, slot).map, from, to, axis), undefined, slot);
 }
 
 /** Starts a map over, as one step that can be undone. */
@@ -119,10 +139,16 @@ export function resetMap(state: AppState, slot: Slot = "first"): void {
   if (field) changeEdit(state, asPart(slot, freshMap(state, field, axisOfSlot(state, slot))));
 }
 
-/** Extinction as drawn: the map's times the density. */
+/** Smooth: opacities follow a spline; else extinction is straight between the points. */
+export function changeSmooth(state: AppState, smooth: boolean, slot: Slot = "first"): void {
+  const length = smooth ? state.referenceLength.value : undefined;
+  changeEdit(state, asPart(slot, { ...mapEditOf(state, slot), smooth: length }));
+}
+
+/** The map as it is drawn. */
 export function drawnMap(state: AppState, slot: Slot = "first"): TransferFunction {
-  const { map, density } = mapEditOf(state, slot);
-  return density === 1 ? map : scaled(map, density);
+  const layer = state.layer.value;
+  return drawnFrom(mapEditOf(state, slot), slot === "first" ? layer?.scale : layer?.densityScale);
 }
 
 const aspectOf = (state: AppState): number => {
@@ -171,9 +197,9 @@ export function currentDocument(state: AppState): ViewDocument | undefined {
   const orbit = state.orbit.value;
   const home = state.home.value;
   const drawn = state.refusal.value ? state.accepted.value : undefined;
-  const { scene, map, density, second } = drawn ?? state.edit.value.present;
+  const { scene, map, density, smooth, second } = drawn ?? state.edit.value.present;
   if (!scene || !orbit || !home) return undefined;
-  return { scene, orbit, home, edit: { map, density, second } };
+  return { scene, orbit, home, edit: { map, density, smooth, second } };
 }
 
 export function restoreDocument(state: AppState, document: ViewDocument): void {

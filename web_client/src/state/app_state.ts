@@ -1,7 +1,13 @@
 import { computed, signal } from "@preact/signals";
 import type { Codec, Timings } from "../net/gen/volcast/v1/frame_pb";
 import type { Layer, Scene } from "../net/gen/volcast/v1/scene_pb";
-import type { DatasetInfo, FieldInfo, ViewState, Welcome } from "../net/gen/volcast/v1/session_pb";
+import type {
+  DatasetInfo,
+  FieldInfo,
+  Picked,
+  ViewState,
+  Welcome,
+} from "../net/gen/volcast/v1/session_pb";
 import { referenceLengthOf } from "../transfer/opacity";
 import type { TransferFunction } from "../transfer/transfer_function";
 import type { Bounds, Orbit } from "../view/camera";
@@ -33,6 +39,8 @@ export interface PictureInfo {
 export interface MapEdit {
   readonly map: TransferFunction;
   readonly density: number;
+  /** Opacities over this length follow a spline towards the points; absent: straight extinction. */
+  readonly smooth?: number | undefined;
 }
 
 /** The maps of the first layer: of its field, and of its second field where it has one. */
@@ -118,6 +126,8 @@ export function createAppState() {
     accepted: signal<Edit | undefined>(undefined),
     viewport: signal<ViewportSize | undefined>(undefined),
     picture: signal<PictureInfo | undefined>(undefined),
+    /** What the picture shows under the resting pointer. */
+    picked: signal<Picked | undefined>(undefined),
     newestInput: signal(0n),
     notices: signal<readonly Notice[]>([]),
     framesPerSecond: signal(0),

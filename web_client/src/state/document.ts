@@ -48,11 +48,11 @@ export function readDocument(text: string | null): ViewDocument | undefined {
     >;
     if (raw.version !== kVersion || typeof raw.scene !== "string") return undefined;
     if (!isOrbit(raw.orbit) || !isOrbit(raw.home)) return undefined;
-    const { map, density, second } = raw.edit;
+    const { map, density, smooth, second } = raw.edit;
     if (!isMap(raw.edit) || !(second === undefined || isMap(second))) return undefined;
     const bytes = Uint8Array.from(atob(raw.scene), (c) => c.charCodeAt(0));
     const scene = fromBinary(SceneSchema, bytes);
-    return { scene, orbit: raw.orbit, home: raw.home, edit: { map, density, second } };
+    return { scene, orbit: raw.orbit, home: raw.home, edit: { map, density, smooth, second } };
   } catch {
     return undefined;
   }

@@ -12,7 +12,15 @@ import { Association, type FieldInfo } from "../net/gen/volcast/v1/session_pb";
 import { defaultMap } from "../transfer/presets";
 import { axisOf, positiveDomain } from "../transfer/scale";
 import { stretched, type TransferFunction } from "../transfer/transfer_function";
-import { changeEdit, changeLayer, fieldOf, freshMap, mapEditOf, withLayer } from "./actions";
+import {
+  changeEdit,
+  changeLayer,
+  fieldOf,
+  freshMap,
+  mapEditOf,
+  usualRangeOf,
+  withLayer,
+} from "./actions";
 import type { AppState, MapEdit } from "./app_state";
 import { isEmpty, middleLevel, movedTo, valuesOf } from "./levels";
 import { fittedTo, type Slot } from "./models";
@@ -40,10 +48,11 @@ const leftFields = new Map<string, LeftField>();
 const key = (dataset: string, field: string): string => JSON.stringify([dataset, field]);
 
 function mapFor(state: AppState, field: FieldInfo): MapEdit {
-  const { map, density } = state.edit.value.present;
-  const next = field.max > field.min ? stretched(map, field.min, field.max) : [];
-  if (next.length > 1) return { map: next, density };
-  return { map: defaultMap(field.min, field.max, state.referenceLength.value), density };
+  const { map, density, smooth } = state.edit.value.present;
+  const { min, max } = usualRangeOf(field);
+  const next = max > min ? stretched(map, min, max) : [];
+  if (next.length > 1) return { map: next, density, smooth };
+  return { map: defaultMap(min, max, state.referenceLength.value), density };
 }
 
 /** Shows another field; its map is the one it had, or the shown one over the field's range. */
@@ -52,9 +61,12 @@ export function changeField(state: AppState, name: string): void {
   const next = dataset?.fields.find((f) => f.name === name);
   const before = state.field.value;
   const layer = state.layer.value;
-  const { scene, map, density } = state.edit.value.present;
+  const { scene, map, density, smooth } = state.edit.value.present;
   if (!dataset || !next || !before || !scene || !layer || next.name === before.name) return;
-  leftFields.set(key(dataset.id, before.name), { map: { map, density }, scale: layer.scale });
+  leftFields.set(key(dataset.id, before.name), {
+    map: { map, density, smooth },
+    scale: layer.scale,
+  });
   const kept = leftFields.get(key(dataset.id, name));
   const part: Partial<Layer> = {
     field: name,

@@ -80,6 +80,7 @@ describe("choices by name", () => {
       model: RayModel.SURFACE,
       integrator: Integrator.AUTO,
       evaluator: MeshEvaluator.AUTO,
+      channels: [],
     });
   });
 

@@ -198,6 +198,15 @@ export function usesColours(layer: Layer | undefined, slot: Slot = "first"): boo
   return (secondPart(layer) === "colour") === (slot === "second");
 }
 
+/** Models that draw several channels of a volume together. */
+export const kSeveral: ReadonlySet<RayModel> = new Set([
+  RayModel.UNSPECIFIED,
+  RayModel.VOLUME,
+  RayModel.MIP,
+  RayModel.MINIP,
+  RayModel.XRAY,
+]);
+
 /** What of a layer cannot stay with another model: the new model's own choices serve it. */
 export function fittedTo(layer: Layer, model: RayModel): Partial<Layer> {
   const { integrators } = factsOf(model);
@@ -207,7 +216,8 @@ export function fittedTo(layer: Layer, model: RayModel): Partial<Layer> {
   const evaluator = evaluatorsOf(model, integrator).includes(layer.evaluator)
     ? layer.evaluator
     : MeshEvaluator.AUTO;
-  return { model, integrator, evaluator };
+  const channels = kSeveral.has(model) ? layer.channels : [];
+  return { model, integrator, evaluator, channels };
 }
 
 export const kScaleLabels: Readonly<Record<Scale_Kind, string>> = {

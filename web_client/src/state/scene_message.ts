@@ -3,11 +3,14 @@ import {
   type Camera,
   CameraSchema,
   Projection,
+  type Scale,
   type Scene,
   SceneSchema,
   type TransferFunction as TransferFunctionMessage,
   TransferFunctionSchema,
 } from "../net/gen/volcast/v1/scene_pb";
+import { smoothed } from "../transfer/drawn_map";
+import { axisOf } from "../transfer/scale";
 import { scaled, type TransferFunction } from "../transfer/transfer_function";
 import { type Bounds, type Orbit, orbitFrom, poseFrom } from "../view/camera";
 import type { Vec3 } from "../view/vec3";
@@ -52,8 +55,18 @@ export function mapOf(message: TransferFunctionMessage | undefined): TransferFun
   }));
 }
 
-const drawnMessage = (edit: MapEdit | undefined): TransferFunctionMessage | undefined =>
-  edit && edit.map.length > 0 ? mapMessage(scaled(edit.map, edit.density)) : undefined;
+/** What is drawn of an edited map: its curve, with extinction times the density. */
+export function drawnFrom(edit: MapEdit, scale: Scale | undefined): TransferFunction {
+  const { map, density, smooth } = edit;
+  const axis = axisOf(scale, map[0]?.value ?? 0, map[map.length - 1]?.value ?? 0);
+  return scaled(smooth ? smoothed(map, smooth, axis) : map, density);
+}
+
+const drawnMessage = (
+  edit: MapEdit | undefined,
+  scale: Scale | undefined,
+): TransferFunctionMessage | undefined =>
+  edit && edit.map.length > 0 ? mapMessage(drawnFrom(edit, scale)) : undefined;
 
 /** The whole scene as it is sent: `base` with this camera, and these maps in its first layer. */
 export function sceneMessage(
@@ -62,8 +75,9 @@ export function sceneMessage(
   bounds: Bounds | undefined,
   edit: Maps,
 ): Scene {
-  const transferFunction = drawnMessage(edit);
-  const densityFunction = drawnMessage(edit.second);
+  const first = base.layers[0];
+  const transferFunction = drawnMessage(edit, first?.scale);
+  const densityFunction = drawnMessage(edit.second, first?.densityScale);
   return create(SceneSchema, {
     ...base,
     camera: cameraMessage(orbit, bounds),

@@ -78,4 +78,18 @@ describe("transfer function", () => {
     expect(sampleAt(step, 4.999).extinction).toBe(0);
     expect(sampleAt(step, 5.001).extinction).toBe(2);
   });
+
+  it("is turned round by a range that runs from high to low", () => {
+    const turned = stretched(ramp, 4, 2);
+    expect(turned.map((p) => p.value)).toEqual([2, 4]);
+    expect(turned[0]?.extinction).toBe(2);
+    expect(sampleAt(turned, 2.5).extinction).toBeCloseTo(1.5, 12);
+  });
+
+  it("keeps its shape along a logarithmic axis", () => {
+    const axis = { along: Math.log, back: Math.exp, low: 0.1, high: 1e9 };
+    const map = [...ramp].map((p, i) => ({ ...p, value: [1, 100][i] ?? 0 }));
+    const middle = withPointAt(map, 10, axis.along).map;
+    expect(stretched(middle, 1, 1e4, axis)[1]?.value).toBeCloseTo(100, 9);
+  });
 });

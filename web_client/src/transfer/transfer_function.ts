@@ -1,4 +1,4 @@
-import { type Along, kStraight } from "./scale";
+import { type Along, type Axis, kStraight } from "./scale";
 import { type Colour, mixColour } from "./srgb";
 
 /** One point of the map: value in the field's unit, linear colour, extinction per world unit. */
@@ -90,12 +90,20 @@ export function scaled(map: TransferFunction, factor: number): TransferFunction 
   return map.map((p) => ({ ...p, extinction: p.extinction * factor }));
 }
 
-/** The same shape over another range of values. */
-export function stretched(map: TransferFunction, low: number, high: number): TransferFunction {
-  const first = map[0]?.value ?? 0;
-  const span = (map[map.length - 1]?.value ?? 0) - first;
-  return map.map((p, i) => {
-    const t = span > 0 ? (p.value - first) / span : i / Math.max(1, map.length - 1);
-    return { ...p, value: low + t * (high - low) };
+/** The same shape over another range of values, turned round where `first` is above `last`. */
+export function stretched(
+  map: TransferFunction,
+  first: number,
+  last: number,
+  axis: Axis = kStraight,
+): TransferFunction {
+  const { along, back } = axis;
+  const start = along(map[0]?.value ?? 0);
+  const span = along(map[map.length - 1]?.value ?? 0) - start;
+  const next = map.map((p, i) => {
+    const t = span > 0 ? (along(p.value) - start) / span : i / Math.max(1, map.length - 1);
+    if (t === 0 || t === 1) return { ...p, value: t === 0 ? first : last };
+    return { ...p, value: back(along(first) + t * (along(last) - along(first))) };
   });
+  return first > last ? next.reverse() : next;
 }

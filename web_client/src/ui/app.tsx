@@ -4,6 +4,7 @@ import type { AppState } from "../state/app_state";
 import { AccuracyPanel } from "./accuracy_panel";
 import { BackgroundPicker } from "./background_picker";
 import { BadgeView } from "./badge";
+import { ChannelList } from "./channel_list";
 import { ClipEditor } from "./clip_editor";
 import { DataList } from "./data_list";
 import { FieldPicker } from "./field_picker";
@@ -12,6 +13,7 @@ import { Icon, IconButton } from "./icons";
 import { MapEditor } from "./map_editor";
 import { ModelPicker } from "./model_picker";
 import { Notices } from "./notices";
+import { PickedLine } from "./picked_line";
 import type { AppPort } from "./port";
 import { Readout } from "./readout";
 import { RefusalNote } from "./refusal_note";
@@ -99,6 +101,7 @@ export function App({ state, port, helpOpen, picture }: Props) {
         <div class="picture-host" ref={picture} />
         <Tools state={state} port={port} helpOpen={helpOpen} />
         <Readout state={state} />
+        <PickedLine state={state} />
         <Notices state={state} />
       </main>
       <aside class="panel" aria-label="Settings">
@@ -124,6 +127,7 @@ export function App({ state, port, helpOpen, picture }: Props) {
           <DataList state={state} port={port} />
           <ModelPicker state={state} />
           <FieldPicker state={state} />
+          <ChannelList state={state} />
           <MapEditor state={state} slot="first" />
           <MapEditor state={state} slot="second" />
           <AccuracyPanel state={state} />

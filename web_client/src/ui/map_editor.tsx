@@ -1,6 +1,14 @@
 import { type Signal, useSignal, useSignalEffect } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
-import { axisOfSlot, changeMap, drawnMap, fieldOf, mapEditOf, resetMap } from "../state/actions";
+import {
+  axisOfSlot,
+  changeMap,
+  drawnMap,
+  fieldOf,
+  mapEditOf,
+  resetMap,
+  usualRangeOf,
+} from "../state/actions";
 import type { AppState } from "../state/app_state";
 import { type Slot, usesColours, usesExtinction } from "../state/models";
 import { withPointAt } from "../transfer/transfer_function";
@@ -10,7 +18,8 @@ import { IconButton } from "./icons";
 import { MapInputs } from "./map_inputs";
 import { drawPlot, type PlotBox, rangeOf, valueAt } from "./map_plot";
 import { MapPoints } from "./map_points";
-import { ColourPresets, DensitySlider, OpacityPresets } from "./map_presets";
+import { ColourPresets, DensitySlider, OpacityPresets, SmoothCurve } from "./map_presets";
+import { MapRange } from "./map_range";
 
 interface Props {
   readonly state: AppState;
@@ -61,8 +70,9 @@ function boxOf(state: AppState, slot: Slot, width: number): PlotBox {
   const field = fieldOf(state, slot);
   const { map } = mapEditOf(state, slot);
   const axis = axisOfSlot(state, slot);
-  const low = field?.min ?? map[0]?.value ?? 0;
-  const high = field?.max ?? map[map.length - 1]?.value ?? 1;
+  const usual = field && usualRangeOf(field);
+  const low = usual?.min ?? map[0]?.value ?? 0;
+  const high = usual?.max ?? map[map.length - 1]?.value ?? 1;
   return { width, axis, ...rangeOf(map, low, high, axis) };
 }
 
@@ -84,8 +94,7 @@ function Plot({ state, slot, selected }: Props & { readonly selected: Signal<num
       map: drawnMap(state, slot),
       referenceLength: state.referenceLength.value,
       histogram: now?.histogram ?? [],
-      fieldMin: now?.min ?? shown.low,
-      fieldMax: now?.max ?? shown.high,
+      histogramRange: now ? usualRangeOf(now) : { min: shown.low, max: shown.high },
       showsOpacity: usesExtinction(state.layer.value, slot),
       showsColours: usesColours(state.layer.value, slot),
     };
@@ -165,6 +174,7 @@ export function MapEditor({ state, slot }: Props) {
   const selected = useSignal(0);
   const layer = state.layer.value;
   if (!layer || mapEditOf(state, slot).map.length === 0) return null;
+  if (layer.channels.length > 0) return null; // Each has a map of its own.
   const showsColours = usesColours(layer, slot);
   const showsOpacity = usesExtinction(layer, slot);
   if (!showsColours && !showsOpacity) return null;
@@ -189,8 +199,10 @@ export function MapEditor({ state, slot }: Props) {
         showsColours={showsColours}
         showsOpacity={showsOpacity}
       />
+      <MapRange state={state} slot={slot} />
       {showsColours && <ColourPresets state={state} slot={slot} />}
       {showsOpacity && <OpacityPresets state={state} slot={slot} />}
+      {showsOpacity && <SmoothCurve state={state} slot={slot} />}
       {showsOpacity && <DensitySlider state={state} slot={slot} />}
       <Hint state={state} slot={slot} />
     </section>

@@ -64,8 +64,7 @@ export interface PlotContent {
   readonly map: TransferFunction;
   readonly referenceLength: number;
   readonly histogram: readonly number[];
-  readonly fieldMin: number;
-  readonly fieldMax: number;
+  readonly histogramRange: { readonly min: number; readonly max: number };
   readonly showsOpacity: boolean;
   readonly showsColours: boolean;
 }
@@ -86,14 +85,15 @@ function drawGrid(context: CanvasRenderingContext2D, { box }: PlotContent, ink: 
 }
 
 function drawHistogram(context: CanvasRenderingContext2D, content: PlotContent, ink: string): void {
-  const { box, histogram, fieldMin, fieldMax } = content;
-  const bin = (fieldMax - fieldMin) / histogram.length;
+  const { box, histogram } = content;
+  const { min, max } = content.histogramRange;
+  const bin = (max - min) / histogram.length;
   if (!(bin > 0)) return;
   context.fillStyle = ink;
   context.beginPath(); // One shape: bars that meet leave no seam.
   barHeights(histogram).forEach((height, i) => {
-    const left = xOf(box, fieldMin + i * bin);
-    const right = xOf(box, fieldMin + (i + 1) * bin);
+    const left = xOf(box, min + i * bin);
+    const right = xOf(box, min + (i + 1) * bin);
     if (right < kPadX) return; // Below what the scale can show.
     const top = yOf(0.92 * height);
     context.rect(left, top, right - left, kPlotHeight - top);

@@ -1,10 +1,11 @@
-import { changeDensity, changeMap, endGesture, mapEditOf } from "../state/actions";
+import { changeDensity, changeMap, changeSmooth, endGesture, mapEditOf } from "../state/actions";
 import type { AppState } from "../state/app_state";
 import type { Slot } from "../state/models";
 import { type ColourMap, kColourMaps } from "../transfer/colour_maps";
 import { kOpacityShapes, withColourMap, withOpacityShape } from "../transfer/presets";
 import { toHex } from "../transfer/srgb";
 import { formatNumber } from "./format";
+import { Check } from "./inputs";
 
 interface Props {
   readonly state: AppState;
@@ -63,6 +64,16 @@ export function OpacityPresets({ state, slot }: Props) {
         ))}
       </select>
     </label>
+  );
+}
+
+/** Whether opacity runs straight or smoothly between the points. */
+export function SmoothCurve({ state, slot }: Props) {
+  const { smooth } = mapEditOf(state, slot);
+  return (
+    <Check checked={smooth !== undefined} take={(yes) => changeSmooth(state, yes, slot)}>
+      Smooth opacity (B-spline)
+    </Check>
   );
 }
 

@@ -1,0 +1,68 @@
+// Up to four channels of a volume between their grid points, in grid coordinates: the components of
+// one texture, so that a fetch reads all of them.
+// Constants: kSampling, kFilterInHardware (trilinear by the texture unit).
+#include "lib/layer.glsl"
+
+layout(binding = kVoxelUnit) uniform sampler3D channelVoxels;
+
+const int kNearest = 0;
+const int kTricubic = 2;
+
+ivec3 lastChannelPoint() {
+    return ivec3(layer.grid.xyz) - 1;
+}
+
+vec4 channelVoxel(ivec3 point) {
+    return texelFetch(channelVoxels, clamp(point, ivec3(0), lastChannelPoint()), 0);
+}
+
+// The first grid point of the cell that holds `at`.
+ivec3 channelCell(vec3 at) {
+    return clamp(ivec3(floor(at)), ivec3(0), max(lastChannelPoint() - 1, ivec3(0)));
+}
+
+vec4 channelLine(ivec3 low, vec2 weights) {
+    return weights.x * channelVoxel(low) + weights.y * channelVoxel(low + ivec3(1, 0, 0));
+}
+
+vec4 trilinearChannels(vec3 at) {
+    ivec3 low = channelCell(at);
+    vec3 t = clamp(at - vec3(low), 0.0, 1.0);
+    vec2 x = vec2(1.0 - t.x, t.x);
+    vec4 front = mix(channelLine(low, x), channelLine(low + ivec3(0, 1, 0), x), t.y);
+    vec4 back = mix(channelLine(low + ivec3(0, 0, 1), x), channelLine(low + ivec3(0, 1, 1), x), t.y);
+    return mix(front, back, t.z);
+}
+
+// Catmull-Rom: as in volume/voxels.glsl.
+vec4 channelCubicWeights(float t) {
+    return 0.5 * vec4(((2.0 - t) * t - 1.0) * t, (3.0 * t - 5.0) * t * t + 2.0,
+                      ((4.0 - 3.0 * t) * t + 1.0) * t, (t - 1.0) * t * t);
+}
+
+vec4 channelCubicLine(ivec3 low, vec4 weights) {
+    return weights.x * channelVoxel(low - ivec3(1, 0, 0)) + weights.y * channelVoxel(low) +
+           weights.z * channelVoxel(low + ivec3(1, 0, 0)) + weights.w * channelVoxel(low + ivec3(2, 0, 0));
+}
+
+vec4 channelCubicPlane(ivec3 low, vec4 x, vec4 y) {
+    return y.x * channelCubicLine(low - ivec3(0, 1, 0), x) + y.y * channelCubicLine(low, x) +
+           y.z * channelCubicLine(low + ivec3(0, 1, 0), x) + y.w * channelCubicLine(low + ivec3(0, 2, 0), x);
+}
+
+vec4 tricubicChannels(vec3 at) {
+    ivec3 low = channelCell(at);
+    vec3 t = clamp(at - vec3(low), 0.0, 1.0);
+    vec4 x = channelCubicWeights(t.x), y = channelCubicWeights(t.y), z = channelCubicWeights(t.z);
+    return z.x * channelCubicPlane(low - ivec3(0, 0, 1), x, y) + z.y * channelCubicPlane(low, x, y) +
+           z.z * channelCubicPlane(low + ivec3(0, 0, 1), x, y) +
+           z.w * channelCubicPlane(low + ivec3(0, 0, 2), x, y);
+}
+
+// The values of all channels at grid coordinates `at`.
+vec4 channelsAt(vec3 at) {
+    if (kSampling == kNearest) return channelVoxel(ivec3(floor(at + 0.5)));
+    if (kSampling == kTricubic) return tricubicChannels(at);
+    return kFilterInHardware ? textureLod(channelVoxels, (at + 0.5) / layer.grid.xyz, 0.0)
+                             : trilinearChannels(at);
+}

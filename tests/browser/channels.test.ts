@@ -1,0 +1,86 @@
+import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import type { Browser } from "playwright-core";
+import { afterAll, beforeAll, describe, expect, it } from "vitest";
+import { Client, launch } from "./support/client";
+import { hashOf } from "./support/pixels";
+import { Server } from "./support/server";
+
+const kSide = 16;
+
+let folder: string;
+let server: Server;
+let browser: Browser;
+let client: Client;
+
+/** Two balls beside each other, one a channel. */
+function writeData(): void {
+  const header = [
+    "ObjectType = Image",
+    "NDims = 3",
+    `DimSize = ${kSide} ${kSide} ${kSide}`,
+    "ElementNumberOfChannels = 2",
+    "ElementType = MET_UCHAR",
+    "ElementDataFile = balls.raw",
+  ];
+  writeFileSync(join(folder, "balls.mhd"), `${header.join("\n")}\n`);
+  const voxels = new Uint8Array(2 * kSide ** 3);
+  for (let i = 0; i < kSide ** 3; i += 1) {
+    const [x, y, z] = [i % kSide, Math.floor(i / kSide) % kSide, Math.floor(i / kSide ** 2)];
+    const ball = (cx: number, cz: number): number =>
+      Math.max(0, 255 - 50 * Math.hypot(x - cx, y - 7.5, z - cz));
+    voxels[2 * i] = ball(4.5, 5.5);
+    voxels[2 * i + 1] = ball(10.5, 10.5);
+  }
+  writeFileSync(join(folder, "balls.raw"), voxels);
+}
+
+beforeAll(async () => {
+  folder = mkdtempSync(join(tmpdir(), "volcast-channels-"));
+  writeData();
+  server = await Server.start({ data: folder });
+  browser = await launch();
+  client = await Client.open(browser, server.url, { viewport: { width: 1000, height: 900 } });
+});
+
+afterAll(async () => {
+  await browser?.close();
+  await server?.stop();
+  rmSync(folder, { recursive: true, force: true });
+});
+
+const picture = async (): Promise<string> => hashOf(await client.pixels());
+
+describe("channels of a volume", () => {
+  it("are drawn together, each with its own colour, and hidden one by one", async () => {
+    const alone = await picture();
+    const together = client.page.getByLabel("Draw channels together");
+    await client.after(() => together.check());
+    const both = await picture();
+    const rows = client.page.locator(".channel");
+    expect(await rows.count()).toBe(2);
+    await client.after(() => rows.nth(0).getByRole("checkbox").uncheck());
+    const second = await picture();
+    await client.after(() => rows.nth(0).getByRole("checkbox").check());
+    expect(await picture()).toBe(both);
+    await client.after(async () => {
+      await rows.nth(1).getByLabel("Opacity %").fill("10");
+      await rows.nth(1).getByLabel("Opacity %").press("Enter");
+    });
+    const faint = await picture();
+    expect(new Set([alone, both, second, faint]).size).toBe(4);
+    await client.after(() => together.uncheck());
+    expect(await picture()).toBe(alone);
+    expect(client.complaints).toEqual([]);
+  });
+
+  it("say their values under the pointer, the brighter one first", async () => {
+    await client.after(() => client.page.getByLabel("Draw channels together").check());
+    const { x, y } = await client.middle();
+    await client.page.mouse.move(x, y);
+    const line = client.page.locator(".picked");
+    await line.waitFor();
+    expect(await line.innerText()).toMatch(/balls_0.*balls_1|balls_1.*balls_0/s);
+  });
+});
