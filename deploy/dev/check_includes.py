@@ -26,6 +26,7 @@ ALLOWED = {
     "renderer/base": BASE,
     "renderer/data": BASE + ["renderer/data"],
     "renderer/data/load": BASE + ["renderer/data", "renderer/data/load"],
+    "renderer/user_shader": BASE + ["renderer/user_shader"],
     "renderer/gpu": BASE + ["renderer/gpu"],
     "renderer/shading": BASE + ["renderer/gpu", "renderer/shading", "shaders/shared"],
     **{part: MODEL for part in SCENE_MODEL},
