@@ -55,6 +55,7 @@ GL_HOMES = ["renderer/gpu", "renderer/shading", "renderer/mesh", "renderer/volum
             "renderer/scene", "tests"]
 HOMES = {  # what an angle include names -> who may name it
     r"boost/(asio|beast)": ["server/net", "tests/support", "tests/e2e", "tests/bench"],
+    r"glslang/": ["renderer/user_shader"],
     r"EGL/": ["renderer/gpu"],
     r"epoxy/": GL_HOMES,
     r"tetgen|OpenImageIO": ["renderer/data/load", "tests"],
