@@ -104,14 +104,21 @@ std::string renamed(const std::vector<Token>& tokens) {
     return text += '\n';
 }
 
-/// Whether a channel is named by anything but a number.
-bool readsAnyChannel(const std::vector<Token>& tokens) {
+void findChannels(const std::vector<Token>& tokens, Checked& checked) {
     for (std::size_t i = 0; i + 3 < tokens.size(); ++i) {
         const bool reads = tokens[i].is("getDataValue") || tokens[i].is("getInterpolatedDataValue");
-        if (!reads || tokens[i + 2].is(")")) continue;
-        if (tokens[i + 2].kind != Token::Kind::kNumber || !tokens[i + 3].is(")")) return true;
+        const Token& argument = tokens[i + 2];
+        if (!reads || argument.is(")")) continue;
+        int channel = 0;
+        const char* end = argument.text.data() + argument.text.size();
+        const bool number = tokens[i + 3].is(")") &&
+                            std::from_chars(argument.text.data(), end, channel).ec == std::errc{};
+        if (number) {
+            checked.channels.insert(channel);
+        } else {
+            checked.readsAnyChannel = true;
+        }
     }
-    return false;
 }
 
 }  // namespace
@@ -141,7 +148,7 @@ Checked checkText(std::string_view code) {
     // A control with an error is not known, so that its uses would be complained of, too.
     if (complaints.empty()) checkWords(tokens, declared, checked.controls, complaints);
     std::ranges::stable_sort(complaints, {}, &Complaint::line);
-    checked.readsAnyChannel = readsAnyChannel(tokens);
+    findChannels(tokens, checked);
     checked.body = renamed(tokens);
     return checked;
 }

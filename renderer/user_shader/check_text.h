@@ -1,5 +1,7 @@
 #pragma once
 
+#include <set>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -14,6 +16,7 @@ struct Checked {
     std::vector<Control> controls;
     std::string body;  ///< The user's names have kPrefix; every line keeps its number.
     std::vector<Complaint> complaints;  ///< None: the text is good.
+    std::set<int> channels;             ///< That getDataValue() and its kin name by a number.
     bool readsAnyChannel = false;       ///< A channel is named by more than a number.
 };
 

@@ -45,7 +45,7 @@ std::string numberText(NumberType type, const std::string& name, const std::stri
     return {};
 }
 
-std::string controlText(const Control& control, std::size_t index, bool checked, ValueType type) {
+std::string controlText(const Control& control, std::size_t index, ValueType type) {
     const std::string name = std::string{kPrefix} + control.name;
     const std::string number = std::to_string(index);
     const std::string texel = "controlTexel(" + number + ")";
@@ -60,8 +60,8 @@ std::string controlText(const Control& control, std::size_t index, bool checked,
     if (std::holds_alternative<Colour>(control.kind)) {
         return "vec3 " + name + " = " + texel + ".rgb;\n";
     }
-    if (std::holds_alternative<Checkbox>(control.kind)) {
-        return "const bool " + name + (checked ? " = true;\n" : " = false;\n");
+    if (const auto* box = std::get_if<Checkbox>(&control.kind)) {
+        return "const bool " + name + (box->initial ? " = true;\n" : " = false;\n");
     }
     if (const auto* lerp = std::get_if<InvLerp>(&control.kind)) {
         const std::string call =
@@ -83,12 +83,14 @@ std::string valuesText(ValueType type) {
     return std::string{"#include \"user/values_"} + rowOf(type).file + ".glsl\"\n";
 }
 
-std::string controlsText(const std::vector<Control>& controls, const std::vector<bool>& checked,
+std::string controlsText(const std::vector<Control>& controls, const std::vector<int>& others,
                          ValueType type) {
-    std::string text;
-    for (std::size_t i = 0; i < controls.size(); ++i) {
-        text += controlText(controls[i], i, i < checked.size() && checked[i], type);
+    std::string text = "int slotOf(int channel) { return ";
+    for (std::size_t i = 0; i < others.size(); ++i) {
+        text += "channel == " + std::to_string(others[i]) + " ? " + std::to_string(i + 1) + " : ";
     }
+    text += "0; }\n";
+    for (std::size_t i = 0; i < controls.size(); ++i) text += controlText(controls[i], i, type);
     return text;
 }
 

@@ -21,8 +21,9 @@ inline constexpr const char* kBodyChunk = "shader";
 /// The text of kValuesChunk: which file of shaders/user/ knows the type.
 std::string valuesText(ValueType type);
 
-/// The text of kControlsChunk. `checked[i]` is the state of control i where that is a checkbox.
-std::string controlsText(const std::vector<Control>& controls, const std::vector<bool>& checked,
+/// The text of kControlsChunk: the controls as they are now, and slotOf() for `others`, the
+/// channels besides the layer's own, in the order of their slots from 1.
+std::string controlsText(const std::vector<Control>& controls, const std::vector<int>& others,
                          ValueType type);
 
 }  // namespace volcast::user_shader

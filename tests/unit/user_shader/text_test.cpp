@@ -117,7 +117,9 @@ TEST(UserShaderNames, GetAPrefixWhereverTheyStand) {
 }
 
 TEST(UserShaderNames, ChannelsByNumberAreToldFromComputedOnes) {
-    EXPECT_FALSE(checkText("void main() { getDataValue(); getDataValue(2); }").readsAnyChannel);
+    const Checked numbered = checkText("void main() { getDataValue(); getDataValue(2); }");
+    EXPECT_FALSE(numbered.readsAnyChannel);
+    EXPECT_EQ(numbered.channels, std::set<int>{2});
     EXPECT_TRUE(checkText("void main() { int i = 1; getDataValue(i); }").readsAnyChannel);
     EXPECT_TRUE(checkText("void main() { getInterpolatedDataValue(1 + 1); }").readsAnyChannel);
 }
