@@ -8,17 +8,19 @@ import re
 import subprocess
 import sys
 
-SCENE_MODEL = ["renderer/scene/camera", "renderer/scene/default_scene", "renderer/scene/layer_fields",
+SCENE_MODEL = ["renderer/scene/camera", "renderer/scene/control_states",
+               "renderer/scene/default_scene", "renderer/scene/layer_fields",
                "renderer/scene/ray_models", "renderer/scene/scale", "renderer/scene/scene_diff",
-               "renderer/scene/scene", "renderer/scene/validate"]
+               "renderer/scene/scene", "renderer/scene/user_controls", "renderer/scene/user_shader",
+               "renderer/scene/validate"]
 BASE = ["renderer/base"]
-MODEL = BASE + ["renderer/data", *SCENE_MODEL]
+MODEL = BASE + ["renderer/data", "renderer/user_shader", *SCENE_MODEL]
 DRAWING = MODEL + ["renderer/plan", "renderer/gpu", "renderer/shading"]
 MEASUREMENT = "renderer/accuracy/measurement"  # Plain structs, for the server too.
 # Both ends of the channel between server and worker; no GL.
 MESSAGES = [f"renderer/worker/{part}" for part in
             ("channel", "exit_codes", "frame_message", "measure_message", "scene_json",
-             "scene_message", "slot_layout")]
+             "scene_message", "slot_layout", "user_shader_message")]
 WORKERS = MODEL + MESSAGES + ["renderer/plan", MEASUREMENT, "server/workers"]
 SESSION = WORKERS + ["protocol", "server/video", "server/session", "server/settings"]
 

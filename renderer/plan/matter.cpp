@@ -76,7 +76,7 @@ Matter matterOf(const Layer& layer, const DatasetSummary& summary) {
                   .maps = scene::layerMaps(layer, summary),
                   .extinction = {},
                   .diagonal = glm::length(summary.bounds.max - summary.bounds.min)};
-    if (absorbs(layer.model)) matter.extinction = extinctionOf(matter);
+    if (absorbs(layer.model) && layer.shader.code.empty()) matter.extinction = extinctionOf(matter);
     return matter;
 }
 

@@ -23,6 +23,8 @@ void planVisible(LayerPlan& plan, const Matter& matter) {
     if (!matter.layer.visible) {
         plan.drawn = false;
         add(plan, kVisible, false, "the layer is hidden");
+    } else if (!matter.layer.shader.code.empty()) {
+        add(plan, kVisible, true, "nobody knows what the code shows before it runs");
     } else if (matter.layer.model == RayModel::kVolume && matter.extinction.max <= 0.0F) {
         plan.drawn = false;
         add(plan, kVisible, false,

@@ -102,8 +102,14 @@ Result<const mesh::FieldGpu*> CachedDataset::field(gpu::Device& device, const La
 
 Result<const volume::ChannelGpu*> CachedDataset::channel(gpu::Device& device, const Layer& layer,
                                                          std::uint64_t frame) {
+    return channel(device, layer.field, frame);
+}
+
+Result<const volume::ChannelGpu*> CachedDataset::channel(gpu::Device& device,
+                                                         const std::string& name,
+                                                         std::uint64_t frame) {
     const auto& volume = std::get<data::Volume>(data_);
-    const data::Channel& channel = named(volume.channels, layer.field);
+    const data::Channel& channel = named(volume.channels, name);
     auto kept = channels_.find(channel.name);
     if (kept == channels_.end()) {
         trim(channels_, frame);

@@ -36,6 +36,9 @@ public:
     /// The channel of `layer`. Needs a volume. Errors: as volume::ChannelGpu::upload.
     Result<const volume::ChannelGpu*> channel(gpu::Device& device, const Layer& layer,
                                               std::uint64_t frame);
+    /// The channel of that name; empty: the first.
+    Result<const volume::ChannelGpu*> channel(gpu::Device& device, const std::string& name,
+                                              std::uint64_t frame);
 
 private:
     template <class T>

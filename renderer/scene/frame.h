@@ -2,11 +2,13 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "renderer/scene/dataset_cache.h"
 #include "renderer/scene/ray_models.h"
+#include "renderer/scene/user_code.h"
 #include "renderer/scene/view.h"
 
 namespace volcast::scene {
@@ -22,6 +24,8 @@ struct LayerDraw {
     const mesh::FieldGpu* field = nullptr;
     const mesh::FieldGpu* density = nullptr;
     const volume::ChannelGpu* channel = nullptr;
+    std::vector<const volume::ChannelGpu*> otherChannels;  // That its code reads.
+    std::optional<UserCode> code;
     std::vector<float> levels;  // Of an isosurface.
     std::vector<shading::Constant> constants;
 };

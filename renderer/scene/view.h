@@ -9,6 +9,7 @@
 #include "renderer/mesh/walk.h"
 #include "renderer/scene/map_table.h"
 #include "renderer/scene/picture.h"
+#include "renderer/scene/user_table.h"
 #include "renderer/scene/view_blocks.h"
 
 namespace volcast::scene {
@@ -16,6 +17,7 @@ namespace volcast::scene {
 /// What a view keeps on the GPU for one layer.
 struct LayerState {
     MapTable map;
+    UserTable controls;
     std::unique_ptr<mesh::WalkState> walk = mesh::WalkState::create();
     std::unique_ptr<mesh::ProjectionState> projection = mesh::ProjectionState::create();
     bool projected = false;        ///< `projection` is in use, `walk` is empty.

@@ -19,7 +19,11 @@ std::vector<Complaint> complaintsOfLog(std::string_view log,
     std::string elsewhere;
     for (std::sregex_iterator match{text.begin(), text.end(), kError}, end; match != end; ++match) {
         const int line = userLine(std::stoi((*match)[1].str()));
-        const std::string message = withoutPrefix((*match)[2].str());
+        std::string message = withoutPrefix((*match)[2].str());
+        message.erase(message.find_last_not_of(' ') + 1);
+        // What follows in a line follows from its first error.
+        const bool known = !complaints.empty() && complaints.back().line == line;
+        if (known) continue;
         if (line > 0) {
             complaints.push_back({.line = line, .message = message});
         } else if (elsewhere.empty()) {

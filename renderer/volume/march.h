@@ -23,6 +23,8 @@ public:
 
     void bind() const noexcept;
     [[nodiscard]] VoxelTexels texels() const noexcept { return texels_; }
+    /// The voxels alone, for code that reads several channels.
+    void bindVoxels(unsigned unit) const noexcept { voxels_.bind(unit); }
 
 private:
     VoxelTexels texels_ = VoxelTexels::kTexture;
@@ -73,6 +75,32 @@ struct MarchTraits {
     bool interval = false;
     int clipPlanes = 0;
 };
+
+/// What a draw needs besides where a user's code says what samples show.
+struct UserInputs {
+    std::vector<shading::TextChunk> texts;  ///< Its chunks that are no files.
+    std::vector<const ChannelGpu*> otherChannels;
+    int iterations = 0;  ///< Of its loops, for one sample.
+};
+
+/// Draws one layer by its code, over what is in the target. Its controls are bound by the caller.
+///
+/// Errors: kShaderBuild.
+Result<void> drawUserCode(const DrawInputs& inputs, const UserInputs& user);
+
+/// What tells the programs of drawUserCode() apart, but for the code.
+struct UserTraits {
+    scene::RayModel model = scene::RayModel::kVolume;
+    scene::Sampling sampling = scene::Sampling::kTrilinear;
+    bool filterInHardware = false;
+    bool interval = false;
+    int clipPlanes = 0;
+    int otherChannels = 0;
+    int iterations = 0;
+};
+
+shading::Recipe userRecipe(const UserTraits& traits, std::vector<shading::TextChunk> texts,
+                           std::vector<shading::Constant> constants);
 
 shading::Recipe marchRecipe(const MarchTraits& traits, std::vector<shading::Constant> constants);
 
