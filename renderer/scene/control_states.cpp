@@ -70,7 +70,7 @@ Refusal take(user_shader::Select& select, const std::variant<double, std::string
 }
 
 Refusal take(std::optional<Interval>& into, const std::optional<data::Range>& range,
-              const char* name, bool ordered) {
+             const char* name, bool ordered) {
     if (!range) return {};
     const std::string ends = textOf(range->min) + " to " + textOf(range->max);
     if (!std::isfinite(range->min) || !std::isfinite(range->max) || range->min == range->max) {

@@ -102,14 +102,8 @@ Result<const mesh::FieldGpu*> CachedDataset::field(gpu::Device& device, const La
 
 Result<const volume::ChannelGpu*> CachedDataset::channel(gpu::Device& device, const Layer& layer,
                                                          std::uint64_t frame) {
-    return channel(device, layer.field, frame);
-}
-
-Result<const volume::ChannelGpu*> CachedDataset::channel(gpu::Device& device,
-                                                         const std::string& name,
-                                                         std::uint64_t frame) {
     const auto& volume = std::get<data::Volume>(data_);
-    const data::Channel& channel = named(volume.channels, name);
+    const data::Channel& channel = named(volume.channels, layer.field);
     auto kept = channels_.find(channel.name);
     if (kept == channels_.end()) {
         trim(channels_, frame);
@@ -117,6 +111,23 @@ Result<const volume::ChannelGpu*> CachedDataset::channel(gpu::Device& device,
         if (!uploaded) return uploaded.error();
         kept =
             channels_.emplace(channel.name, Kept<volume::ChannelGpu>{std::move(*uploaded)}).first;
+    }
+    kept->second.frame = frame;
+    return &kept->second.part;
+}
+
+Result<const volume::RawChannel*> CachedDataset::rawChannel(gpu::Device& device,
+                                                            const std::string& name,
+                                                            std::uint64_t frame) {
+    const auto& volume = std::get<data::Volume>(data_);
+    const data::Channel& channel = named(volume.channels, name);
+    auto kept = rawChannels_.find(channel.name);
+    if (kept == rawChannels_.end()) {
+        trim(rawChannels_, frame);
+        Result<volume::RawChannel> uploaded = volume::RawChannel::upload(device, volume, channel);
+        if (!uploaded) return uploaded.error();
+        kept = rawChannels_.emplace(channel.name, Kept<volume::RawChannel>{std::move(*uploaded)})
+                   .first;
     }
     kept->second.frame = frame;
     return &kept->second.part;

@@ -36,9 +36,9 @@ public:
     /// The channel of `layer`. Needs a volume. Errors: as volume::ChannelGpu::upload.
     Result<const volume::ChannelGpu*> channel(gpu::Device& device, const Layer& layer,
                                               std::uint64_t frame);
-    /// The channel of that name; empty: the first.
-    Result<const volume::ChannelGpu*> channel(gpu::Device& device, const std::string& name,
-                                              std::uint64_t frame);
+    /// The channel of that name as a user's code reads it; empty: the first. Likewise.
+    Result<const volume::RawChannel*> rawChannel(gpu::Device& device, const std::string& name,
+                                                 std::uint64_t frame);
 
 private:
     template <class T>
@@ -52,6 +52,7 @@ private:
     std::map<std::string, MeshPart> parts_;                                ///< By partKey().
     std::map<std::string, Kept<std::unique_ptr<mesh::FieldGpu>>> fields_;  ///< By keyOf().
     std::map<std::string, Kept<volume::ChannelGpu>> channels_;
+    std::map<std::string, Kept<volume::RawChannel>> rawChannels_;
 };
 
 }  // namespace volcast::scene

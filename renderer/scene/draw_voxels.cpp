@@ -2,19 +2,29 @@
 
 namespace volcast::scene {
 
+namespace {
+
+Result<void> prepareRawChannels(DrawContext& context, LayerDraw& draw) {
+    std::vector<std::string> names{draw.layer->field};
+    for (const int number : draw.code->otherChannels) {
+        names.push_back(draw.dataset->summary().fields[static_cast<std::size_t>(number)].name);
+    }
+    for (const std::string& name : names) {
+        const auto channel = draw.dataset->rawChannel(*context.device, name, context.frame);
+        if (!channel) return channel.error();
+        draw.rawChannels.push_back(*channel);
+    }
+    return {};
+}
+
+}  // namespace
+
 Result<void> prepareVoxels(DrawContext& context, LayerDraw& draw) {
+    if (draw.code) return prepareRawChannels(context, draw);
     const Result<const volume::ChannelGpu*> channel =
         draw.dataset->channel(*context.device, *draw.layer, context.frame);
     if (!channel) return channel.error();
     draw.channel = *channel;
-    if (!draw.code) return {};
-    for (const int number : draw.code->otherChannels) {
-        const std::string& name =
-            draw.dataset->summary().fields[static_cast<std::size_t>(number)].name;
-        const auto other = draw.dataset->channel(*context.device, name, context.frame);
-        if (!other) return other.error();
-        draw.otherChannels.push_back(*other);
-    }
     return {};
 }
 
@@ -31,7 +41,7 @@ Result<void> drawVoxels(const DrawContext& context, const Frame& frame, const La
                                     .target = &target};
     if (draw.code) {
         return volume::drawUserCode(inputs, {.texts = draw.code->texts,
-                                             .otherChannels = draw.otherChannels,
+                                             .channels = draw.rawChannels,
                                              .iterations = draw.code->iterations});
     }
     return draw.plan->evaluator == plan::Evaluator::kCrossSections

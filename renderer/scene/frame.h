@@ -24,7 +24,7 @@ struct LayerDraw {
     const mesh::FieldGpu* field = nullptr;
     const mesh::FieldGpu* density = nullptr;
     const volume::ChannelGpu* channel = nullptr;
-    std::vector<const volume::ChannelGpu*> otherChannels;  // That its code reads.
+    std::vector<const volume::RawChannel*> rawChannels;  // That its code reads, its own first.
     std::optional<UserCode> code;
     std::vector<float> levels;  // Of an isosurface.
     std::vector<shading::Constant> constants;

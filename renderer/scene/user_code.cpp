@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "renderer/scene/layer_fields.h"
+#include "renderer/scene/scale.h"
 #include "renderer/scene/user_controls.h"
 #include "renderer/user_shader/generate.h"
 #include "renderer/user_shader/texels.h"
@@ -33,6 +35,12 @@ double referencesAWorldUnit(const data::DatasetSummary& summary) {
     return diagonal > 0.0 ? kReferences / diagonal : 1.0;
 }
 
+/// What the ends of the layer's interval, and all values of maps, are relative to.
+double intervalShift(const Layer& layer, const data::DatasetSummary& summary) {
+    const FieldUse use = mainField(layer, summary);
+    return -double{ScaleFunction{use.scale, use.field->range}.ofPoint(0.0F)};
+}
+
 int ownChannel(const Layer& layer, const data::DatasetSummary& summary) {
     const auto field = std::ranges::find(summary.fields, layer.field, &data::FieldSummary::name);
     return field == summary.fields.end() ? 0 : static_cast<int>(field - summary.fields.begin());
@@ -56,7 +64,9 @@ Result<UserCode> UserCodes::of(const Layer& layer, const data::DatasetSummary& s
     if (!answer.complaints.empty()) return shaderError(answer.complaints, path + ".shader.code");
     made.iterations = answer.iterations;
     made.texels = user_shader::controlTexels(
-        code->controls, type, referencesAWorldUnit(summary) * std::exp(double{layer.gain}));
+        code->controls, type,
+        {.referencesAWorldUnit = referencesAWorldUnit(summary) * std::exp(double{layer.gain}),
+         .intervalShift = intervalShift(layer, summary)});
     return made;
 }
 

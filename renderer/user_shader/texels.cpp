@@ -44,9 +44,10 @@ void addPoints(std::vector<glm::vec4>& texels, const std::vector<OpacityPoint>& 
 }  // namespace
 
 std::vector<glm::vec4> controlTexels(const std::vector<Control>& controls, ValueType type,
-                                     double referencesAWorldUnit) {
+                                     const ProgramNumbers& numbers) {
     std::vector<glm::vec4> texels(controls.size() + 1, glm::vec4(0.0F));
-    texels[0].x = asFloat(referencesAWorldUnit);
+    texels[0].x = asFloat(numbers.referencesAWorldUnit);
+    texels[0].y = asFloat(numbers.intervalShift);
     for (std::size_t i = 0; i < controls.size(); ++i) {
         const Control& control = controls[i];
         glm::vec4 texel{0.0F};

@@ -7,9 +7,14 @@
 
 namespace volcast::user_shader {
 
+/// Numbers of a program that are no controls.
+struct ProgramNumbers {
+    double referencesAWorldUnit = 1.0;  ///< Reference distances, times e^gain.
+    double intervalShift = 0.0;         ///< What the layer's interval has been shifted by.
+};
+
 /// What shaders/user/controls.glsl reads: the controls as they are now, laid out as it says.
-/// `referencesAWorldUnit`: reference distances a world unit, times e^gain.
 std::vector<glm::vec4> controlTexels(const std::vector<Control>& controls, ValueType type,
-                                     double referencesAWorldUnit);
+                                     const ProgramNumbers& numbers);
 
 }  // namespace volcast::user_shader

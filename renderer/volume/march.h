@@ -23,8 +23,6 @@ public:
 
     void bind() const noexcept;
     [[nodiscard]] VoxelTexels texels() const noexcept { return texels_; }
-    /// The voxels alone, for code that reads several channels.
-    void bindVoxels(unsigned unit) const noexcept { voxels_.bind(unit); }
 
 private:
     VoxelTexels texels_ = VoxelTexels::kTexture;
@@ -78,9 +76,9 @@ struct MarchTraits {
 
 /// What a draw needs besides where a user's code says what samples show.
 struct UserInputs {
-    std::vector<shading::TextChunk> texts;  ///< Its chunks that are no files.
-    std::vector<const ChannelGpu*> otherChannels;
-    int iterations = 0;  ///< Of its loops, for one sample.
+    std::vector<shading::TextChunk> texts;    ///< Its chunks that are no files.
+    std::vector<const RawChannel*> channels;  ///< The layer's own, then the others.
+    int iterations = 0;                       ///< Of its loops, for one sample.
 };
 
 /// Draws one layer by its code, over what is in the target. Its controls are bound by the caller.

@@ -32,17 +32,16 @@ Result<void> drawUserCode(const DrawInputs& inputs, const UserInputs& user) {
                             .filterInHardware = inputs.filterInHardware,
                             .interval = inputs.plan->has(plan::kInterval),
                             .clipPlanes = inputs.clipPlanes,
-                            .otherChannels = static_cast<int>(user.otherChannels.size()),
+                            .otherChannels = static_cast<int>(user.channels.size()) - 1,
                             .iterations = user.iterations};
     const Result<const gpu::Program*> program =
         inputs.programs->ray(userRecipe(traits, user.texts, inputs.constants));
     if (!program) return program.error();
     inputs.target->begin({.blend = gpu::Blend::kOver});
     (*program)->use();
-    inputs.channel->bind();
-    for (std::size_t i = 0; i < user.otherChannels.size(); ++i) {
-        user.otherChannels[i]->bindVoxels(shading::shared::kOtherChannelUnit +
-                                          static_cast<unsigned>(i));
+    user.channels.front()->bind(shading::shared::kVoxelUnit);
+    for (unsigned i = 1; i < user.channels.size(); ++i) {
+        user.channels[i]->bind(shading::shared::kOtherChannelUnit + i - 1);
     }
     inputs.device->draw(gpu::Primitive::kTriangles, 3);
     return {};

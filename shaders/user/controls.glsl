@@ -1,7 +1,8 @@
 // Controls of a user's code, and the functions by which it answers. The state of a control is a few
 // texels, so that a change is an upload.
 // Layout of the buffer (texels of 4 floats), written by renderer/scene/user_texels.cpp:
-//   texel 0                x: reference distances a world unit, times e^gain
+//   texel 0                x: reference distances a world unit, times e^gain; y: what the layer's
+//                          interval has been shifted by
 //   texel 1 + i, control i slider, select   x: its number; of int and uint: the number's bits
 //                          color            rgb, linear
 //                          invlerp          x: begin of the range, y: 1 / its length

@@ -1,11 +1,12 @@
 // What a user's code reads of a volume: its layer's channel and others, around one place.
-// Constants: kOtherChannels, how many others there are, at most 7; those of volume/voxels.glsl.
+// Constants: kOtherChannels, how many others there are, at most 7; those of volume/raw_field.glsl.
 // slotOf() is generated: 0 for the layer's channel, 1 for the first of the others, and so on.
 #include "contract/user_code.glsl"
-#include "volume/voxels.glsl"
+#include "volume/raw_field.glsl"
 
 const int kMaxOtherChannels = 7;
 
+layout(binding = kVoxelUnit) uniform sampler3D ownChannel;
 layout(binding = kOtherChannelUnit) uniform sampler3D otherChannels[kMaxOtherChannels];
 
 const int kAsNearest = 0;
@@ -28,7 +29,7 @@ float readChannel(int channel, int how) {
     if (kOtherChannels > 4 && slot == 5) return read(otherChannels[4], how);
     if (kOtherChannels > 5 && slot == 6) return read(otherChannels[5], how);
     if (kOtherChannels > 6 && slot == 7) return read(otherChannels[6], how);
-    return read(voxels, how);
+    return read(ownChannel, how);
 }
 
 float nearestValue(int channel) {

@@ -24,8 +24,9 @@ void main() {
     float dt = (end - begin) / steps;
     for (int i = 0; i < int(steps); ++i) {
         sampleAt = origin + (begin + (float(i) + 0.5) * dt) * direction;
-        float value = valueAt(sampleAt);
-        if (kInterval && (value < layer.gather.z || value > layer.gather.w)) continue;
+        float value = sampledValue(kOwnChannel);
+        float inInterval = value - codeHeader.y;  // as the layer's block has it
+        if (kInterval && (inInterval < layer.gather.z || inInterval > layer.gather.w)) continue;
         Segment piece = Segment(value, value, value, value, dt, begin + float(i) * dt);
         if (stepRay(state, piece) && kEarlyStop) break;
     }

@@ -13,7 +13,8 @@ namespace {
 std::vector<glm::vec4> texelsOf(const std::string& code, ValueType type = ValueType::kF32) {
     const Parsed parsed = parse(code);
     EXPECT_TRUE(parsed.complaints.empty());
-    return controlTexels(parsed.controls, type, 2.5);
+    return controlTexels(parsed.controls, type,
+                         {.referencesAWorldUnit = 2.5, .intervalShift = 7.0});
 }
 
 TEST(UserShaderTexels, HoldNumbersOfTheirType) {
@@ -24,7 +25,7 @@ TEST(UserShaderTexels, HoldNumbersOfTheirType) {
         "#uicontrol string_t d select(options=[\"x\", \"y\"], default=\"y\")\n"
         "#uicontrol float e select(options=[1.5, 2.5])\n");
     ASSERT_EQ(texels.size(), 6U);
-    EXPECT_EQ(texels[0].x, 2.5F);
+    EXPECT_EQ(texels[0], glm::vec4(2.5F, 7.0F, 0.0F, 0.0F));
     EXPECT_EQ(texels[1].x, 0.25F);
     EXPECT_EQ(std::bit_cast<std::int32_t>(texels[2].x), -7);
     EXPECT_EQ(std::bit_cast<std::uint32_t>(texels[3].x), 4294967295U);
