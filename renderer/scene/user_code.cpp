@@ -18,16 +18,6 @@ using user_shader::ValueType;
 // While code is written, each version of it leaves one.
 constexpr std::size_t kMaxAnswers = 64;
 
-ValueType valueType(const data::DatasetSummary& summary) {
-    switch (summary.voxelType) {
-        case data::VoxelType::kU8: return ValueType::kU8;
-        case data::VoxelType::kU16: return ValueType::kU16;
-        case data::VoxelType::kI16: return ValueType::kI16;
-        case data::VoxelType::kF32: break;
-    }
-    return ValueType::kF32;
-}
-
 /// Opacities are those of a 64th of the data's diagonal.
 double referencesAWorldUnit(const data::DatasetSummary& summary) {
     constexpr double kReferences = 64.0;

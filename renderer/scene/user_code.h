@@ -24,7 +24,8 @@ struct UserCode {
 /// Makes UserCode of layers; what glslang says of a text is asked for once.
 class UserCodes {
 public:
-    /// Errors: kShaderBuild with the user's lines, `field` beneath `path`. `layer` must be valid.
+    /// Errors: kInvalidArgument with the user's lines, `field` beneath `path`. `layer` must be
+    /// valid.
     Result<UserCode> of(const Layer& layer, const data::DatasetSummary& summary,
                         const shading::ChunkSource& chunks, const std::string& path);
 

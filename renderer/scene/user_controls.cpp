@@ -43,6 +43,16 @@ bool runsUserCode(const Layer& layer) {
     return !layer.shader.code.empty();
 }
 
+user_shader::ValueType valueType(const data::DatasetSummary& summary) {
+    switch (summary.voxelType) {
+        case data::VoxelType::kU8: return user_shader::ValueType::kU8;
+        case data::VoxelType::kU16: return user_shader::ValueType::kU16;
+        case data::VoxelType::kI16: return user_shader::ValueType::kI16;
+        case data::VoxelType::kF32: break;
+    }
+    return user_shader::ValueType::kF32;
+}
+
 Error shaderError(const std::vector<user_shader::Complaint>& complaints, const std::string& path) {
     constexpr std::size_t kMostShown = 10;
     std::string text = path + ":";
@@ -54,7 +64,7 @@ Error shaderError(const std::vector<user_shader::Complaint>& complaints, const s
     if (complaints.size() > kMostShown) {
         text += "\nand " + std::to_string(complaints.size() - kMostShown) + " more";
     }
-    return fail(ErrorCode::kShaderBuild, text, path);
+    return fail(ErrorCode::kInvalidArgument, text, path);
 }
 
 Result<Checked> resolved(const UserShader& shader, const std::string& path) {

@@ -7,6 +7,7 @@
 #include "renderer/data/dataset.h"
 #include "renderer/scene/scene.h"
 #include "renderer/user_shader/check_text.h"
+#include "renderer/user_shader/generate.h"
 
 namespace volcast::scene {
 
@@ -15,7 +16,7 @@ bool runsUserCode(const Layer& layer);
 
 /// The code of `shader`, its controls with their states as initial values.
 ///
-/// Errors: kShaderBuild with the user's lines; kInvalidArgument, kNotFound for a state that no
+/// Errors: kInvalidArgument with the user's lines; kInvalidArgument, kNotFound for a state that no
 /// control can have. `field` is beneath `path`.
 Result<user_shader::Checked> resolved(const UserShader& shader, const std::string& path);
 
@@ -24,6 +25,9 @@ Result<void> validateShader(const Layer& layer, const std::string& path);
 /// Against the data: kUnsupported, and kNotFound for a channel that is not there.
 Result<void> validateShader(const Layer& layer, const data::DatasetSummary& summary,
                             const std::string& path);
+
+/// How code sees the numbers of a dataset.
+user_shader::ValueType valueType(const data::DatasetSummary& summary);
 
 /// One error of all that is wrong with a code, a line each: "line 3, column 5: ...".
 Error shaderError(const std::vector<user_shader::Complaint>& complaints, const std::string& path);

@@ -91,6 +91,7 @@ private:
 
     void explain(const v1::Explain& message);
     void measureAccuracy(const v1::MeasureAccuracy& message);
+    void describeShader(const v1::DescribeShader& message);
 
     void datasetChanged(const v1::DatasetInfo& info);
     // News come with the view's number in the whole server: its own may be in use again.

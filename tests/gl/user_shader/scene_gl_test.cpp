@@ -144,7 +144,7 @@ TEST_F(UserShaderScene, WhatIsWrongLeavesTheViewAsItWas) {
         return drawn ? Error{} : drawn.error();
     };
     const Error error = refused("void main() {\n  emitRGB(c);\n}");
-    EXPECT_EQ(error.code, ErrorCode::kShaderBuild);
+    EXPECT_EQ(error.code, ErrorCode::kInvalidArgument);
     EXPECT_EQ(error.field, "layers[0].shader.code");
     EXPECT_EQ(error.message, "layers[0].shader.code:\nline 2: 'c' : undeclared identifier");
     EXPECT_THAT(refused("void main() { for (;;) {} }").message, HasSubstr("line 1: the loop"));
