@@ -1,6 +1,7 @@
 #include "server/workers/isolating_service.h"
 
 #include <algorithm>
+#include <deque>
 #include <fcntl.h>
 #include <future>
 #include <list>
@@ -25,12 +26,15 @@ base::FileDescriptor copyOf(const base::FileDescriptor& descriptor) {
     return base::FileDescriptor{::fcntl(descriptor.get(), F_DUPFD_CLOEXEC, 0)};
 }
 
+// A request may fail a few newer ones later.
+constexpr std::size_t kMostRemembered = 8;
+
 /// The service of one view. It starts on a thread of its own, because that takes as long as a
 /// worker does to start; until then the newest request waits here.
 struct OwnService {
     std::unique_ptr<RenderService> service;  ///< Null while it starts.
     std::optional<RenderRequest> waiting;
-    scene::Scene last;   ///< Of the newest request.
+    std::deque<std::pair<std::uint64_t, scene::Scene>> asked;  ///< Newest tags and their scenes.
     bool ended = false;  ///< While it starts: nobody wants it any more.
 };
 
@@ -129,7 +133,8 @@ private:
         }
         const bool fresh = own == nullptr;
         if (fresh) own = std::make_shared<OwnService>();
-        own->last = request.scene;
+        own->asked.emplace_back(request.tag, request.scene);
+        if (own->asked.size() > kMostRemembered) own->asked.pop_front();
         if (own->service) {
             own->service->submit(std::move(request));
         } else {
@@ -168,13 +173,21 @@ private:
         events.failed = [this, view](std::uint64_t of, std::uint64_t tag, Error error) {
             if (error.code == ErrorCode::kDeviceLost) {
                 const std::scoped_lock lock{mutex_};
-                const auto own = own_.find(view);
-                if (own != own_.end()) quarantine_.add(own->second->last);
+                quarantine(view, tag);
                 spdlog::warn("shader code of view {} is in quarantine: {}", view, error.message);
             }
             events_.failed(of, tag, std::move(error));
         };
         return events;
+    }
+
+    /// Needs the lock.
+    void quarantine(std::uint64_t view, std::uint64_t tag) {
+        const auto own = own_.find(view);
+        if (own == own_.end()) return;
+        for (const auto& [asked, scene] : own->second->asked) {
+            if (asked == tag) quarantine_.add(scene);
+        }
     }
 
     /// Ends the view's own service, if it has one, without waiting for that.
