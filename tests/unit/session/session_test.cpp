@@ -171,6 +171,8 @@ TEST_F(SessionTest, CodeThatFailsGivesTheLastDrawnSceneBack) {
     openView();
     drawLast();
     ASSERT_NE(waitFor(R"("final":true)"), "");
+    say(R"({"ack":{"view":4,"sequence":1}})");
+    say(R"({"ack":{"view":4,"sequence":2}})");
     const scene::Scene good = render.requests[0].scene;
     const std::string layer = R"({"id":"l","dataset":")" + good.layers[0].dataset +
                               R"(","model":"RAY_MODEL_VOLUME","shader":{"code":")";
