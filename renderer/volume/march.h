@@ -10,6 +10,7 @@
 #include "renderer/gpu/texture3d.h"
 #include "renderer/plan/plan.h"
 #include "renderer/shading/program_cache.h"
+#include "renderer/volume/raw_channel.h"
 #include "renderer/volume/voxel_blocks.h"
 
 namespace volcast::volume {
