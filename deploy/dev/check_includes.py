@@ -8,12 +8,13 @@ import re
 import subprocess
 import sys
 
-SCENE_MODEL = ["renderer/scene/camera", "renderer/scene/channels", "renderer/scene/default_scene",
-               "renderer/scene/layer_fields", "renderer/scene/picked", "renderer/scene/ray_models",
-               "renderer/scene/scale", "renderer/scene/scene_diff", "renderer/scene/scene",
-               "renderer/scene/user_shader", "renderer/scene/validate"]
+SCENE_MODEL = ["renderer/scene/camera", "renderer/scene/channels", "renderer/scene/control_states",
+               "renderer/scene/default_scene", "renderer/scene/layer_fields", "renderer/scene/picked",
+               "renderer/scene/ray_models", "renderer/scene/scale", "renderer/scene/scene_diff",
+               "renderer/scene/scene", "renderer/scene/user_controls", "renderer/scene/user_shader",
+               "renderer/scene/validate"]
 BASE = ["renderer/base"]
-MODEL = BASE + ["renderer/data", *SCENE_MODEL]
+MODEL = BASE + ["renderer/data", "renderer/user_shader", *SCENE_MODEL]
 DRAWING = MODEL + ["renderer/plan", "renderer/gpu", "renderer/shading"]
 MEASUREMENT = "renderer/accuracy/measurement"  # Plain structs, for the server too.
 # Both ends of the channel between server and worker; no GL.
@@ -27,6 +28,7 @@ ALLOWED = {
     "renderer/base": BASE,
     "renderer/data": BASE + ["renderer/data"],
     "renderer/data/load": BASE + ["renderer/data", "renderer/data/load"],
+    "renderer/user_shader": BASE + ["renderer/user_shader"],
     "renderer/gpu": BASE + ["renderer/gpu"],
     "renderer/shading": BASE + ["renderer/gpu", "renderer/shading", "shaders/shared"],
     **{part: MODEL for part in SCENE_MODEL},
@@ -57,6 +59,7 @@ GL_HOMES = ["renderer/gpu", "renderer/shading", "renderer/mesh", "renderer/volum
             "renderer/scene", "tests"]
 HOMES = {  # what an angle include names -> who may name it
     r"boost/(asio|beast)": ["server/net", "tests/support", "tests/e2e", "tests/bench"],
+    r"glslang/": ["renderer/user_shader"],
     r"EGL/": ["renderer/gpu"],
     r"epoxy/": GL_HOMES,
     r"tetgen|OpenImageIO": ["renderer/data/load", "tests"],

@@ -14,7 +14,8 @@ std::vector<Candidate> candidates(const scene::Scene& scene) {
     std::vector<Candidate> found;
     for (std::size_t i = 0; i < scene.layers.size(); ++i) {
         const scene::Layer& layer = scene.layers[i];
-        if (!layer.visible) continue;
+        // Of users' code there is no reference.
+        if (!layer.visible || !layer.shader.code.empty()) continue;
         for (const scene::IntegratorRow& row : scene::row(layer.model).integrators) {
             bool served = false;
             for (const MeshEvaluator evaluator : kEvaluators) {

@@ -94,7 +94,7 @@ Matter matterOf(const Layer& layer, const DatasetSummary& summary) {
                   .maps = scene::layerMaps(layer, summary),
                   .extinction = {},
                   .diagonal = glm::length(summary.bounds.max - summary.bounds.min)};
-    if (absorbs(layer.model)) {
+    if (absorbs(layer.model) && layer.shader.code.empty()) {
         matter.extinction =
             layer.channels.empty() ? extinctionOf(matter) : extinctionOfChannels(layer, summary);
     }

@@ -27,6 +27,8 @@ void planVisible(LayerPlan& plan, const Matter& matter) {
     } else if (!matter.layer.channels.empty() && scene::shownChannels(matter.layer).empty()) {
         plan.drawn = false;
         add(plan, kVisible, false, "all of its channels are hidden");
+    } else if (!matter.layer.shader.code.empty()) {
+        add(plan, kVisible, true, "nobody knows what the code shows before it runs");
     } else if (matter.layer.model == RayModel::kVolume && matter.extinction.max <= 0.0F) {
         plan.drawn = false;
         add(plan, kVisible, false,

@@ -99,6 +99,18 @@ void planLight(LayerPlan& plan, const Layer& volume) {
                                  : "lit from the eye");
 }
 
+/// A user's code in the place of the map.
+void planUserShader(LayerPlan& plan, const Matter& matter) {
+    plan.integrator = "user shader";
+    plan.method = scene::Integrator::kAverage;
+    add(plan, kUserShader, true, "the layer's code says what a sample shows; its map is not used");
+    planStep(plan, matter);
+    add(plan, kEmptyBricks, false, "nobody knows what the code shows of a brick's values");
+    const bool gathers = matter.layer.model == RayModel::kVolume;
+    add(plan, kEarlyStop, gathers,
+        gathers ? "a ray may get opaque on its way" : "every sample may have the extreme");
+}
+
 }  // namespace
 
 void planVoxels(LayerPlan& plan, const Matter& matter) {
@@ -106,6 +118,8 @@ void planVoxels(LayerPlan& plan, const Matter& matter) {
     plan.integrator = plan.evaluator == Evaluator::kVolumeMarch ? "march" : "slices";
     planChannels(plan, matter.layer);
     planInterpolation(plan, matter.layer);
+    if (!matter.layer.shader.code.empty()) return planUserShader(plan, matter);
+    add(plan, kUserShader, false, "the map says what a sample shows");
     plan.method = methodOfSamples(
         matter.layer.model, plan.has(kInterpolation) && plan.evaluator == Evaluator::kVolumeMarch);
     if (matter.layer.model == RayModel::kIsosurface) planHeadlight(plan, matter.layer);

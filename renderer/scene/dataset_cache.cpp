@@ -137,4 +137,21 @@ Result<const volume::ChannelsGpu*> CachedDataset::channels(gpu::Device& device, 
     return &kept->second.part;
 }
 
+Result<const volume::RawChannel*> CachedDataset::rawChannel(gpu::Device& device,
+                                                            const std::string& name,
+                                                            std::uint64_t frame) {
+    const auto& volume = std::get<data::Volume>(data_);
+    const data::Channel& channel = named(volume.channels, name);
+    auto kept = rawChannels_.find(channel.name);
+    if (kept == rawChannels_.end()) {
+        trim(rawChannels_, frame);
+        Result<volume::RawChannel> uploaded = volume::RawChannel::upload(device, volume, channel);
+        if (!uploaded) return uploaded.error();
+        kept = rawChannels_.emplace(channel.name, Kept<volume::RawChannel>{std::move(*uploaded)})
+                   .first;
+    }
+    kept->second.frame = frame;
+    return &kept->second.part;
+}
+
 }  // namespace volcast::scene

@@ -37,6 +37,9 @@ public:
     /// The channel of `layer`. Needs a volume. Errors: as volume::ChannelGpu::upload.
     Result<const volume::ChannelGpu*> channel(gpu::Device& device, const Layer& layer,
                                               std::uint64_t frame);
+    /// The channel of that name as a user's code reads it; empty: the first. Likewise.
+    Result<const volume::RawChannel*> rawChannel(gpu::Device& device, const std::string& name,
+                                                 std::uint64_t frame);
 
     /// The channels that `layer` shows together. Errors: as volume::ChannelsGpu::upload.
     Result<const volume::ChannelsGpu*> channels(gpu::Device& device, const Layer& layer,
@@ -55,6 +58,7 @@ private:
     std::map<std::string, Kept<std::unique_ptr<mesh::FieldGpu>>> fields_;  ///< By keyOf().
     std::map<std::string, Kept<volume::ChannelGpu>> channels_;
     std::map<std::string, Kept<volume::ChannelsGpu>> channelSets_;  ///< By their names.
+    std::map<std::string, Kept<volume::RawChannel>> rawChannels_;
 };
 
 }  // namespace volcast::scene

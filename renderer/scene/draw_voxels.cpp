@@ -22,9 +22,23 @@ Result<void> prepareChannels(DrawContext& context, LayerDraw& draw) {
     return {};
 }
 
+Result<void> prepareRawChannels(DrawContext& context, LayerDraw& draw) {
+    std::vector<std::string> names{draw.layer->field};
+    for (const int number : draw.code->otherChannels) {
+        names.push_back(draw.dataset->summary().fields[static_cast<std::size_t>(number)].name);
+    }
+    for (const std::string& name : names) {
+        const auto channel = draw.dataset->rawChannel(*context.device, name, context.frame);
+        if (!channel) return channel.error();
+        draw.rawChannels.push_back(*channel);
+    }
+    return {};
+}
+
 }  // namespace
 
 Result<void> prepareVoxels(DrawContext& context, LayerDraw& draw) {
+    if (draw.code) return prepareRawChannels(context, draw);
     if (!draw.layer->channels.empty()) return prepareChannels(context, draw);
     const Result<const volume::ChannelGpu*> channel =
         draw.dataset->channel(*context.device, *draw.layer, context.frame);
@@ -44,6 +58,11 @@ Result<void> drawVoxels(const DrawContext& context, const Frame& frame, const La
                                     .filterInHardware = context.filterInHardware,
                                     .constants = draw.constants,
                                     .target = &target};
+    if (draw.code) {
+        return volume::drawUserCode(inputs, {.texts = draw.code->texts,
+                                             .channels = draw.rawChannels,
+                                             .iterations = draw.code->iterations});
+    }
     if (draw.channels != nullptr) {
         draw.state->channels.bind();
         return volume::drawChannels(inputs, *draw.channels);

@@ -2,11 +2,13 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "renderer/scene/dataset_cache.h"
 #include "renderer/scene/ray_models.h"
+#include "renderer/scene/user_code.h"
 #include "renderer/scene/view.h"
 
 namespace volcast::scene {
@@ -23,7 +25,9 @@ struct LayerDraw {
     const mesh::FieldGpu* density = nullptr;
     const volume::ChannelGpu* channel = nullptr;
     const volume::ChannelsGpu* channels = nullptr;  // Instead, where several are drawn together.
-    std::vector<float> levels;                      // Of an isosurface.
+    std::vector<const volume::RawChannel*> rawChannels;  // That its code reads, its own first.
+    std::optional<UserCode> code;
+    std::vector<float> levels;  // Of an isosurface.
     std::vector<shading::Constant> constants;
 };
 

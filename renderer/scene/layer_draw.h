@@ -12,6 +12,7 @@ struct DrawContext {
     shading::ProgramCache* programs = nullptr;
     bool filterInHardware = false;  ///< See volume::filtersExactly().
     gpu::Buffer psiTable;           ///< Made when first asked for.
+    UserCodes codes;
     std::uint64_t frame = 0;
 };
 

@@ -10,6 +10,7 @@
 #include "renderer/scene/layer_draw.h"
 #include "renderer/scene/ray_models.h"
 #include "renderer/scene/scene_diff.h"
+#include "renderer/scene/user_controls.h"
 #include "renderer/scene/validate.h"
 
 namespace volcast::scene {
@@ -74,6 +75,7 @@ public:
 
 private:
     Result<Summaries> validated(const Scene& scene, PictureSize size, const FrameTarget& target);
+    Result<void> takeCodes(Frame& frame);
     [[nodiscard]] Work workFor(const Frame& frame) const;
     Result<void> prepare(Frame& frame);
     Result<void> prepareLayer(Frame& frame, LayerDraw& draw);
@@ -139,6 +141,7 @@ Result<FrameInfo> DeviceRenderer::render(std::uint64_t view, const Scene& scene,
         draw.plan = &planned;
         draw.dataset = &dataset;
     }
+    if (const Result<void> coded = takeCodes(frame); !coded) return coded.error();
     const Work work = workFor(frame);
     const Result<void> made = make(frame, work, info);
     countWork();
@@ -156,6 +159,19 @@ Result<FrameInfo> DeviceRenderer::render(std::uint64_t view, const Scene& scene,
     if (info.drawn) ++counters_.framesDrawn;
     info.work = counters_ - before;
     return info;
+}
+
+/// What the draws need of users' code; what is wrong with it is told before anything is drawn.
+Result<void> DeviceRenderer::takeCodes(Frame& frame) {
+    for (LayerDraw& draw : frame.draws) {
+        if (!runsUserCode(*draw.layer)) continue;
+        Result<UserCode> code =
+            context_.codes.of(*draw.layer, draw.dataset->summary(), programs_.chunks(),
+                              "layers[" + std::to_string(draw.index) + "]");
+        if (!code) return std::move(code).error();
+        draw.code = *std::move(code);
+    }
+    return {};
 }
 
 Work DeviceRenderer::workFor(const Frame& frame) const {
@@ -245,7 +261,9 @@ Result<void> DeviceRenderer::prepareLayer(Frame& frame, LayerDraw& draw) {
     }
     draw.state = &state;
     draw.constants.push_back({"kEndsAtSurfaces", draw.plan->has(plan::kEndsAtSurfaces)});
-    if (needsField(*draw.layer)) {
+    if (draw.code) {
+        if (auto set = state.controls.set(device_, draw.code->texels); !set) return set;
+    } else if (needsField(*draw.layer)) {
         Result<void> set =
             state.map.set(device_, layerContent(*draw.layer, *draw.plan, frame.scene->layers,
                                                 frame.plan->layers, draw.dataset->summary()));
@@ -289,7 +307,11 @@ Result<void> DeviceRenderer::drawLayers(const Frame& frame) {
 
 Result<void> DeviceRenderer::drawLayer(const Frame& frame, const LayerDraw& draw) {
     frame.view->blocks.bindLayer(draw.index);
-    if (needsField(*draw.layer)) draw.state->map.bind();
+    if (draw.code) {
+        draw.state->controls.bind();
+    } else if (needsField(*draw.layer)) {
+        draw.state->map.bind();
+    }
     if (!isOpaque(draw) && draw.plan->has(plan::kEndsAtSurfaces)) {
         frame.picture->distance.bind(shading::shared::kOpaqueDistanceUnit);
     }

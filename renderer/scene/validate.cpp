@@ -9,6 +9,7 @@
 #include "renderer/scene/channels.h"
 #include "renderer/scene/ray_models.h"
 #include "renderer/scene/scale.h"
+#include "renderer/scene/user_controls.h"
 
 namespace volcast::scene {
 namespace {
@@ -127,7 +128,9 @@ Result<void> validate(const Layer& layer, const std::string& path) {
     }
     Result<void> valid = validateChoices(layer, path);
     if (valid) valid = validateNumbers(layer, path);
-    if (valid && (colours(layer) || !layer.map.points.empty())) {
+    if (valid) valid = validateShader(layer, path);
+    const bool usesMap = colours(layer) && !runsUserCode(layer);
+    if (valid && (usesMap || !layer.map.points.empty())) {
         valid = validateMap(layer.map, path + ".transfer_function");
     }
     if (valid) valid = validateChannels(layer, path);
@@ -369,6 +372,7 @@ Result<void> validate(const Scene& scene, const Summaries& summaries) {
                                          : validateVolume(layer, pathOf(i));
         }
         if (valid) valid = validateChannels(layer, found->second, pathOf(i));
+        if (valid) valid = validateShader(layer, found->second, pathOf(i));
         if (!valid) return valid.error();
     }
     return {};

@@ -10,6 +10,7 @@
 #include "renderer/scene/channel_table.h"
 #include "renderer/scene/map_table.h"
 #include "renderer/scene/picture.h"
+#include "renderer/scene/user_table.h"
 #include "renderer/scene/view_blocks.h"
 #include "renderer/volume/slices.h"
 
@@ -19,6 +20,7 @@ namespace volcast::scene {
 struct LayerState {
     MapTable map;
     ChannelTable channels;  ///< Of several channels of a volume.
+    UserTable controls;
     std::unique_ptr<mesh::WalkState> walk = mesh::WalkState::create();
     volume::SlicesState slices;
     std::unique_ptr<mesh::ProjectionState> projection = mesh::ProjectionState::create();

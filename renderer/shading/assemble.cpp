@@ -146,10 +146,18 @@ Result<void> checkSlot(const Assembled& assembled, const std::vector<FunctionDef
 
 }  // namespace
 
-Result<Assembled> assemble(const Recipe& recipe, const ChunkSource& chunks) {
+ChunkSource withTexts(const std::vector<TextChunk>& texts, const ChunkSource& chunks) {
+    return [&texts, &chunks](std::string_view path) -> std::optional<std::string> {
+        const auto found = std::ranges::find(texts, path, &TextChunk::path);
+        return found == texts.end() ? chunks(path) : found->text;
+    };
+}
+
+Result<Assembled> assemble(const Recipe& recipe, const ChunkSource& files) {
     if (recipe.evaluator.empty()) {
         return fail(ErrorCode::kShaderBuild, "a recipe without an evaluator draws nothing");
     }
+    const ChunkSource chunks = withTexts(recipe.texts, files);
     Writer writer{chunks};
     writer.constants(recipe.constants);
     for (const char* contract : {"contract/ray.glsl", "contract/segment.glsl"}) {
@@ -174,17 +182,24 @@ Result<Assembled> assemble(const Recipe& recipe, const ChunkSource& chunks) {
     return writer.take();
 }
 
-Result<Assembled> assembleFile(const std::string& path, const std::vector<Constant>& constants,
-                               const ChunkSource& chunks) {
+Result<Assembled> expand(const std::string& path, const std::vector<Constant>& constants,
+                         const ChunkSource& chunks) {
     Writer writer{chunks};
     writer.constants(constants);
     const Result<void> emitted = writer.chunk(path, {.file = "pass", .line = 1});
     if (!emitted) return emitted.error();
+    return writer.take();
+}
+
+Result<Assembled> assembleFile(const std::string& path, const std::vector<Constant>& constants,
+                               const ChunkSource& chunks) {
+    Result<Assembled> file = expand(path, constants, chunks);
+    if (!file) return file;
     const std::array<const char*, 1> main{"main"};
     const Result<void> valid =
-        checkSlot(writer.result(), functionDefinitions(writer.result().source), "pass", path, main);
+        checkSlot(*file, functionDefinitions(file->source), "pass", path, main);
     if (!valid) return valid.error();
-    return writer.take();
+    return file;
 }
 
 }  // namespace volcast::shading

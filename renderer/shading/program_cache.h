@@ -36,6 +36,8 @@ public:
     Result<const gpu::Program*> compute(const std::string& file,
                                         const std::vector<Constant>& constants = {});
 
+    [[nodiscard]] const ChunkSource& chunks() const noexcept { return chunks_; }
+
 private:
     Result<const gpu::Program*> keep(const std::string& key, Result<gpu::Program> program);
     Result<gpu::Program> build(const std::string& label, const std::string& vertex,

@@ -10,6 +10,7 @@
 #include "renderer/gpu/texture3d.h"
 #include "renderer/plan/plan.h"
 #include "renderer/shading/program_cache.h"
+#include "renderer/volume/raw_channel.h"
 #include "renderer/volume/voxel_blocks.h"
 
 namespace volcast::volume {
@@ -73,6 +74,32 @@ struct MarchTraits {
     bool interval = false;
     int clipPlanes = 0;
 };
+
+/// What a draw needs besides where a user's code says what samples show.
+struct UserInputs {
+    std::vector<shading::TextChunk> texts;    ///< Its chunks that are no files.
+    std::vector<const RawChannel*> channels;  ///< The layer's own, then the others.
+    int iterations = 0;                       ///< Of its loops, for one sample.
+};
+
+/// Draws one layer by its code, over what is in the target. Its controls are bound by the caller.
+///
+/// Errors: kShaderBuild.
+Result<void> drawUserCode(const DrawInputs& inputs, const UserInputs& user);
+
+/// What tells the programs of drawUserCode() apart, but for the code.
+struct UserTraits {
+    scene::RayModel model = scene::RayModel::kVolume;
+    scene::Sampling sampling = scene::Sampling::kTrilinear;
+    bool filterInHardware = false;
+    bool interval = false;
+    int clipPlanes = 0;
+    int otherChannels = 0;
+    int iterations = 0;
+};
+
+shading::Recipe userRecipe(const UserTraits& traits, std::vector<shading::TextChunk> texts,
+                           std::vector<shading::Constant> constants);
 
 MarchTraits traitsOf(const DrawInputs& inputs);
 shading::Recipe crossSectionRecipe(const MarchTraits& traits,

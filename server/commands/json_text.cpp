@@ -3,8 +3,8 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-// The one place where Boost.JSON's code is compiled for the commands.
-#include <boost/json/src.hpp>
+
+#include <boost/json.hpp>
 
 namespace volcast::commands {
 

@@ -9,6 +9,7 @@
 #include "renderer/scene/ray_models.h"
 #include "server/commands/files.h"
 #include "server/commands/map_file.h"
+#include "server/commands/option_shader.h"
 #include "server/commands/render_scene.h"
 
 namespace volcast::commands {
@@ -253,6 +254,11 @@ Result<scene::Layer> layerFor(const SceneOptions& options, const data::DatasetSu
     auto levels = levelsFrom(options, layer.levels);
     if (!levels) return std::move(levels).error();
     layer.levels = *std::move(levels);
+    if (!options.shader.empty()) {
+        auto shader = shaderFrom(options.shader, options.controls);
+        if (!shader) return std::move(shader).error();
+        layer.shader = *std::move(shader);
+    }
     scene::expose(layer, summary);  // Anew, for the maps that the options name.
     setLook(layer, options);
     return layer;

@@ -190,6 +190,19 @@ void addEvaluation(Group group, SceneOptions& o) {
         ->check(CLI::IsMember({"auto", "march", "slices", "slice_instances"}));
 }
 
+void addShader(Group group, SceneOptions& o) {
+    auto* shader = group.add("--shader", o.shader,
+                             "File of GLSL that says what samples of volume, mip and minip show; "
+                             "its #uicontrol lines declare controls");
+    group
+        .add("--control", o.controls,
+             "NAME=VALUE of a control of --shader: a number, a CSS colour, true or false, an "
+             "option, [FROM, TO] of an invlerp, [[VALUE, \"#rrggbb\", OPACITY], ...] of a "
+             "transferFunction; each with its own --control")
+        ->allow_extra_args(false)
+        ->needs(shader);
+}
+
 void addView(Group group, SceneOptions& o) {
     group.add("--camera", o.camera,
               "JSON file {eye, center, up, fovy, near, far}; none: all in view");
@@ -286,6 +299,8 @@ void addSceneOptions(CLI::App& command, SceneOptions& o, Choices choices) {
     addModelOptions({command, "Ray models", &ofLayer}, o);
     addLight({command, "Light", &ofLayer}, o);
     addEvaluation({command, "How rays are evaluated", &ofLayer}, o);
+    // Nothing else draws what code shows, so that it cannot be measured.
+    if (choices == Choices::kOne) addShader({command, "Shader code", &ofLayer}, o);
     // Not excludes(): --help would list them all.
     command.parse_complete_callback([document, ofLayer] {
         if (document->empty()) return;

@@ -50,6 +50,8 @@ struct SceneOptions {
     bool light = false;
     std::vector<double> lightPosition;
     std::optional<float> ambient, diffuse, specular, shininess;
+    std::string shader;                 ///< File of code that takes the map's place.
+    std::vector<std::string> controls;  ///< NAME=VALUE of its controls.
     // the scene
     std::string sceneFile, camera, projection;
     std::vector<std::tuple<double, double, double, double>> clip;  ///< Normal and offset.

@@ -12,6 +12,7 @@
 
 #include "server/commands/cache_folder.h"
 #include "server/settings.h"
+#include "server/workers/isolating_service.h"
 
 namespace volcast::commands {
 
@@ -44,7 +45,7 @@ int serve(ServeSettings settings) {
     if (settings.listen.clientFolder.empty()) settings.listen.clientFolder = defaultClientFolder();
     session::ViewRouter router;
     session::EncodePool encoders{settings.encodeThreads};
-    auto render = workers::RenderService::create(settings.render, router.events());
+    auto render = workers::createIsolatingService(settings.render, router.events());
     if (!render) return complain(render.error());
     session::CatalogueDesc desc;
     desc.folder = settings.dataFolder;

@@ -102,6 +102,7 @@ private:
     void explain(const v1::Explain& message);
     void measureAccuracy(const v1::MeasureAccuracy& message);
     void pick(const v1::Pick& message);
+    void describeShader(const v1::DescribeShader& message);
 
     void datasetChanged(const v1::DatasetInfo& info);
     // News come with the view's number in the whole server: its own may be in use again.

@@ -1,8 +1,9 @@
-// What a session tells of how its views are drawn: plans, and what accuracy costs.
+// What a session tells of how its views are drawn: plans, what accuracy costs, controls of code.
 #include <utility>
 
 #include "server/session/explain.h"
 #include "server/session/session.h"
+#include "server/session/shader_description.h"
 
 namespace volcast::session {
 
@@ -17,6 +18,13 @@ void Session::explain(const v1::Explain& message) {
     }
     v1::ServerMessage reply;
     *reply.mutable_plan() = *view->plan;
+    send(reply);
+}
+
+void Session::describeShader(const v1::DescribeShader& message) {
+    v1::ServerMessage reply;
+    *reply.mutable_shader_description() =
+        shaderDescription(message, shared_.catalogue.summaries({message.dataset()}));
     send(reply);
 }
 

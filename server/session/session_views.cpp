@@ -77,6 +77,7 @@ void Session::rendered(const workers::RenderedFrame& frame) {
     View* view = findGlobal(frame.view);
     const auto now = Clock::now();
     if (view == nullptr || !view->frames.rendered(frame)) return;
+    view->scene.drawn(view->frames.shownSeq());
     view->plan = planMessage(frame, view->number, view->frames.shownSeq());
     const bool waiting = view->scene.waiting();
     if (view->state == v1::VIEW_STATE_RECOVERING && waiting) {
@@ -90,8 +91,15 @@ void Session::rendered(const workers::RenderedFrame& frame) {
 void Session::failed(std::uint64_t global, std::uint64_t tag, const Error& error) {
     View* view = findGlobal(global);
     if (view == nullptr || !view->frames.failed(tag)) return;
-    refuse(*view, error, wireCode(error.code));
-    advance(*view, Clock::now());
+    Error told = error;
+    if (told.field.starts_with("layers[")) told.field = "scene." + told.field;
+    if (!view->scene.revert()) {
+        refuse(*view, told, wireCode(error.code));
+        return advance(*view, Clock::now());
+    }
+    send(errorMessage(told, {.view = view->number, .inputSeq = view->scene.shownSeq()}));
+    setState(*view, v1::VIEW_STATE_ACTIVE, "");
+    apply(*view, SceneChange::kDraw);
 }
 
 void Session::recovering(std::uint64_t global) {

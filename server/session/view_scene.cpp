@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "renderer/scene/default_scene.h"
+#include "renderer/scene/user_controls.h"
 #include "renderer/scene/validate.h"
 #include "renderer/worker/scene_message.h"
 
@@ -88,9 +89,8 @@ Result<SceneChange> ViewScene::accept(Waiting next) {
     }
     auto scene = resolve(next);
     if (!scene) return scene.error();
-    scene_ = std::move(*scene);
+    take(std::move(*scene));
     waiting_.reset();
-    seenVersion_ = dataVersion();
     return SceneChange::kDraw;
 }
 
@@ -114,7 +114,7 @@ Result<SceneChange> ViewScene::open(const v1::OpenView& message) {
     const auto change = accept(std::move(next));
     if (!change) return change.error();
     size_ = *size;
-    inputSeq_ = message.input_seq();
+    inputSeq_ = sceneSeq_ = message.input_seq();
     return *change;
 }
 
@@ -148,6 +148,7 @@ Result<SceneChange> ViewScene::update(const v1::Update& message) {
     }
     size_ = size;
     inputSeq_ = message.input_seq();
+    if (message.has_scene()) sceneSeq_ = inputSeq_;
     return change;
 }
 
@@ -160,8 +161,7 @@ Result<SceneChange> ViewScene::datasetChanged(const std::string& id) {
         auto scene = resolve(*waiting_);
         waiting_.reset();
         if (!scene) return scene.error();
-        scene_ = std::move(*scene);
-        seenVersion_ = dataVersion();
+        take(std::move(*scene));
         return SceneChange::kDraw;
     }
     if (!scene_ || std::ranges::count(datasetsOf(*scene_), id) == 0) return SceneChange::kNone;
@@ -170,6 +170,28 @@ Result<SceneChange> ViewScene::datasetChanged(const std::string& id) {
     const auto valid = scene::validate(*scene_, catalogue_.summaries(datasetsOf(*scene_)));
     if (!valid) return within("scene", valid.error());
     return SceneChange::kDraw;
+}
+
+void ViewScene::take(scene::Scene scene) {
+    scene_ = std::move(scene);
+    seenVersion_ = dataVersion();
+    isGood_ = false;
+}
+
+void ViewScene::drawn(std::uint64_t seq) {
+    if (isGood_ || seq < sceneSeq_) return;
+    good_ = scene_;
+    isGood_ = true;
+}
+
+bool ViewScene::revert() {
+    const bool runsCode = scene_ && std::ranges::any_of(scene_->layers, scene::runsUserCode);
+    if (!runsCode || isGood_ || !good_) return false;
+    const scene::Camera camera = scene_->camera;
+    scene_ = good_;
+    scene_->camera = camera;
+    isGood_ = true;
+    return true;
 }
 
 std::uint64_t ViewScene::dataVersion() const {

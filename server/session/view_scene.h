@@ -36,6 +36,12 @@ public:
     /// it in vain; as scene::validate() where the scene does not suit the data that came.
     Result<SceneChange> datasetChanged(const std::string& id);
 
+    /// A picture of the input `seq` was drawn: scene() may be gone back to.
+    void drawn(std::uint64_t seq);
+    /// After a failure of a scene that runs users' code: takes the last scene that was drawn, seen
+    /// by the newest camera. False where there is none, or it is this one.
+    bool revert();
+
     [[nodiscard]] const std::optional<scene::Scene>& scene() const noexcept { return scene_; }
     [[nodiscard]] scene::PictureSize size() const noexcept { return size_; }
     [[nodiscard]] bool waiting() const noexcept { return waiting_.has_value(); }
@@ -60,12 +66,16 @@ private:
     /// Asks for the data of `next`; true where all of it is loaded.
     Result<bool> require(const Waiting& next);
     Result<scene::Scene> resolve(const Waiting& next) const;
+    void take(scene::Scene scene);
     /// Takes `next` as the scene, or lets it wait.
     Result<SceneChange> accept(Waiting next);
 
     Catalogue& catalogue_;
     std::uint64_t maxPixels_;
     std::optional<scene::Scene> scene_;
+    std::optional<scene::Scene> good_;  ///< The last one that was drawn.
+    bool isGood_ = false;               ///< That is scene_, the camera aside.
+    std::uint64_t sceneSeq_ = 0;        ///< Input that brought scene_.
     std::optional<Waiting> waiting_;
     scene::PictureSize size_{512, 512};
     std::uint64_t inputSeq_ = 0;

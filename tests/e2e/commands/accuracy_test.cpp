@@ -2,7 +2,7 @@
 #include <map>
 #include <set>
 
-#include <boost/json/src.hpp>
+#include <boost/json.hpp>
 
 #include "renderer/scene/ray_models.h"
 #include "tests/e2e/commands/program.h"

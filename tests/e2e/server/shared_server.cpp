@@ -1,6 +1,6 @@
 #include "tests/e2e/server/shared_server.h"
 
-#include <boost/json/src.hpp>
+#include <boost/json.hpp>
 
 namespace volcast::test {
 

@@ -11,6 +11,7 @@
 #include "renderer/data/packed_dataset.h"
 #include "renderer/data/volume_builder.h"
 #include "renderer/scene/default_scene.h"
+#include "server/workers/isolating_service.h"
 
 namespace volcast::test {
 
@@ -105,6 +106,13 @@ std::optional<Result<accuracy::Measurement>> Events::waitForMeasurement(std::uin
         return found.has_value();
     });
     return found;
+}
+
+bool Events::hasFailure(std::uint64_t view, std::uint64_t tag) const {
+    const std::scoped_lock lock{mutex_};
+    return std::ranges::any_of(failures_, [&](const Failure& failure) {
+        return failure.view == view && failure.tag == tag;
+    });
 }
 
 bool Events::hasMeasurement() const {
@@ -255,13 +263,17 @@ workers::RenderSettings quickSettings() {
     return settings;
 }
 
-Service startService(const workers::RenderSettings& settings) {
+namespace {
+
+using Created = Result<std::unique_ptr<workers::RenderService>>;
+
+Service started(const std::function<Created(workers::RenderEvents)>& create) {
     Service started;
     const data::Dataset volume = blockVolume(24);
     const data::Dataset mesh = blockMesh();
     started.volume = data::summarize(volume);
     started.mesh = data::summarize(mesh);
-    auto service = workers::RenderService::create(settings, started.events->callbacks());
+    auto service = create(started.events->callbacks());
     if (!service) {
         ADD_FAILURE() << service.error().message;
         return started;
@@ -270,6 +282,20 @@ Service startService(const workers::RenderSettings& settings) {
     started.service->addDataset("volume", data::pack(volume).value());
     started.service->addDataset("mesh", data::pack(mesh).value());
     return started;
+}
+
+}  // namespace
+
+Service startService(const workers::RenderSettings& settings) {
+    return started([&](workers::RenderEvents events) {
+        return workers::RenderService::create(settings, std::move(events));
+    });
+}
+
+Service startIsolatingService(const workers::RenderSettings& settings) {
+    return started([&](workers::RenderEvents events) {
+        return workers::createIsolatingService(settings, std::move(events));
+    });
 }
 
 }  // namespace volcast::test

@@ -35,6 +35,7 @@ public:
 
     [[nodiscard]] std::size_t framesOf(std::uint64_t view) const;
     [[nodiscard]] bool hasMeasurement() const;
+    [[nodiscard]] bool hasFailure(std::uint64_t view, std::uint64_t tag) const;
     [[nodiscard]] std::vector<std::uint64_t> viewsInOrder() const;
 
 private:
@@ -86,5 +87,7 @@ struct Service {
 /// Deadlines as short as a busy machine allows.
 workers::RenderSettings quickSettings();
 Service startService(const workers::RenderSettings& settings = quickSettings());
+/// One that gives views with code of users workers of their own.
+Service startIsolatingService(const workers::RenderSettings& settings = quickSettings());
 
 }  // namespace volcast::test

@@ -20,6 +20,8 @@
 #include "renderer/shading/embedded_chunks.h"
 #include "renderer/shading/glsl_scan.h"
 #include "renderer/shading/program_cache.h"
+#include "renderer/user_shader/check_text.h"
+#include "renderer/user_shader/generate.h"
 #include "renderer/volume/march.h"
 #include "renderer/volume/slices.h"
 #include "tests/support/import_files.h"
@@ -148,6 +150,7 @@ protected:
     }
 
     void addMarches();
+    void addUserCode();
     void addWalks();
     void addProjections();
     void addLevels();
@@ -191,6 +194,39 @@ void Validator::addMarches() {
         addRay(volume::crossSectionRecipe(
                    support::marchTraits(scene::row(scene::RayModel::kCrossSections), variant),
                    support::layerConstants(variant)),
+               shading::kFullScreenVertex);
+    }
+}
+
+/// Code with all kinds of controls, of all types of data.
+void Validator::addUserCode() {
+    const user_shader::Checked code = user_shader::checkText(
+        "#uicontrol float s slider(min=0, max=1)\n#uicontrol int i slider(min=0, max=9)\n"
+        "#uicontrol vec3 c color\n#uicontrol bool b checkbox\n#uicontrol uint o "
+        "select(options=[1])\n"
+        "#uicontrol invlerp n(channel=1)\n#uicontrol transferFunction t\n"
+        "void main() { vec4 m = t(getInterpolatedDataValue(2)); emitIntensity(n());\n"
+        "if (b && i > 1 && o == 1u) { emitTransparent(); return; }\n"
+        "float step = toNormalized(getDataValue()) + float(toRaw(getDataValue(1)));\n"
+        "emitGrayscale(step); emitRGB(c * s); emitRGBA(m); }");
+    ASSERT_TRUE(code.complaints.empty()) << code.complaints.front().message;
+    for (int variant = 0; variant < 4 * 3 * 3 * 2; ++variant) {
+        const auto type = static_cast<user_shader::ValueType>(variant % 4);
+        constexpr std::array kModels{scene::RayModel::kVolume, scene::RayModel::kMip,
+                                     scene::RayModel::kMinip};
+        const volume::UserTraits traits{.model = kModels[variant / 4 % 3],
+                                        .sampling = static_cast<scene::Sampling>(variant / 12 % 3),
+                                        .filterInHardware = bit(variant, 0),
+                                        .interval = variant >= 36,
+                                        .clipPlanes = bit(variant, 2) ? 2 : 0,
+                                        .otherChannels = 2};
+        addRay(volume::userRecipe(
+                   traits,
+                   {{.path = user_shader::kValuesChunk, .text = user_shader::valuesText(type)},
+                    {.path = user_shader::kControlsChunk,
+                     .text = user_shader::controlsText(code.controls, {1, 2}, type)},
+                    {.path = user_shader::kBodyChunk, .text = code.body}},
+                   {{"kEndsAtSurfaces", bit(variant, 1)}}),
                shading::kFullScreenVertex);
     }
 }
@@ -321,6 +357,7 @@ TEST_F(Validator, EveryProgramIsGlslToAnIndependentCompiler) {
     EXPECT_EQ(programs_, 7 * support::kMarchVariants);
     addWalks();
     EXPECT_EQ(programs_, 7 * support::kMarchVariants + 17 * kWalkVariants);
+    addUserCode();
     addProjections();
     addLevels();
     addSurfaces();

@@ -36,6 +36,8 @@ std::vector<std::pair<std::string, std::string>> clientMeanings() {
         {"hello_minimal", R"({"hello":{"major":1}})"},
         {"hello_full", R"({"hello":{"major":1,"minor":3,"client":"probe 0.1 é",)"
                        R"("codecs":["CODEC_PNG","CODEC_JPEG"]}})"},
+        {"describe_shader", R"({"describeShader":{"request":3,"code":"void main() {}",)"
+                            R"("dataset":"v"}})"},
         {"open_dataset", R"({"openDataset":{"dataset":"blunt/fin.vtu"}})"},
         {"open_view_default",
          R"({"openView":{"view":1,"viewport":{"width":512,"height":384},"inputSeq":"1"}})"},
@@ -99,6 +101,13 @@ std::vector<std::pair<std::string, std::string>> serverMeanings() {
         {"error_field",
          R"({"error":{"code":"ERROR_CODE_INVALID_ARGUMENT","message":"eye.x is not finite",)"
          R"("field":"camera.eye.x","view":7,"inputSeq":"12"}})"},
+        {"shader_description",
+         R"({"shaderDescription":{"request":3,"controls":[{"name":"s","line":1,)"
+         R"("slider":{"type":"float","min":-1,"max":1,"step":0.02}},{"name":"b","line":2,)"
+         R"("checkbox":true},{"name":"t","line":3,"transferFunction":{"window":{"max":255},)"
+         R"("points":[{"value":102,"colour":{}},{"value":178.5,"colour":{"r":1,"g":1,"b":1},)"
+         R"("opacity":1}],"defaultColour":{"r":1,"g":1,"b":1}}}],)"
+         R"("complaints":[{"line":4,"column":3,"message":"while is not allowed"}]}})"},
         {"error_dataset", R"({"error":{"code":"ERROR_CODE_IMPORT_FAILED","message":"x.vtu: empty",)"
                           R"("dataset":"x.vtu"}})"},
         {"pong", R"({"pong":{"token":"9007199254740993"}})"},

@@ -3,7 +3,7 @@
 #include <fstream>
 #include <sstream>
 
-#include <boost/json/src.hpp>
+#include <boost/json.hpp>
 #include <gmock/gmock.h>
 #include <google/protobuf/util/json_util.h>
 #include <google/protobuf/util/message_differencer.h>

@@ -160,6 +160,49 @@ TEST_F(SessionTest, AFailedDrawIsToldAndTheNextInputIsDrawn) {
     EXPECT_NE(waitFor("VIEW_STATE_ACTIVE"), "");
 }
 
+TEST_F(SessionTest, DescribesCodeWithoutARenderer) {
+    say(R"({"hello":{"major":1}})");
+    say(R"({"describeShader":{"request":9,"code":"#uicontrol bool b checkbox\nvoid main() {}"}})");
+    const std::string said = waitFor("shaderDescription");
+    EXPECT_NE(said.find(R"("request":9)"), std::string::npos) << said;
+    EXPECT_NE(said.find(R"("name":"b")"), std::string::npos) << said;
+    EXPECT_TRUE(render.requests.empty());
+}
+
+TEST_F(SessionTest, CodeThatFailsGivesTheLastDrawnSceneBack) {
+    openView();
+    drawLast();
+    ASSERT_NE(waitFor(R"("final":true)"), "");
+    say(R"({"ack":{"view":4,"sequence":1}})");
+    say(R"({"ack":{"view":4,"sequence":2}})");
+    const scene::Scene good = render.requests[0].scene;
+    const std::string layer = R"({"id":"l","dataset":")" + good.layers[0].dataset +
+                              R"(","model":"RAY_MODEL_VOLUME","shader":{"code":")";
+    const std::string camera =
+        R"("camera":{"eye":{"x":5},"center":{},"up":{"z":1},"fovyDegrees":30})";
+    const auto update = [&](int seq, const std::string& code) {
+        say(R"({"update":{"view":4,"inputSeq":")" + std::to_string(seq) + R"(","scene":{)" +
+            camera + R"(,"layers":[)" + layer + code + R"("}}]}}})");
+    };
+    update(2, "void main() { while (true) {} }");
+    const std::string refused = waitFor("while is not allowed");
+    EXPECT_NE(refused.find("scene.layers[0].shader.code"), std::string::npos) << refused;
+    EXPECT_EQ(render.requests.size(), 1U) << "refused before any worker sees it";
+
+    update(3, "void main() { emitRGB(x); }");
+    ASSERT_EQ(render.requests.size(), 2U);
+    events.failed(render.requests[1].view, render.requests[1].tag,
+                  fail(ErrorCode::kInvalidArgument, "line 1: 'x'", "layers[0].shader.code"));
+    const std::string told = waitFor("line 1: 'x'");
+    EXPECT_NE(told.find("ERROR_CODE_INVALID_ARGUMENT"), std::string::npos) << told;
+    EXPECT_NE(told.find("scene.layers[0].shader.code"), std::string::npos) << told;
+    ASSERT_EQ(render.requests.size(), 3U);
+    EXPECT_EQ(render.requests[2].scene.layers, good.layers);
+    EXPECT_EQ(render.requests[2].scene.camera.eye.x, 5.0) << "seen by the newest camera";
+    drawLast();
+    EXPECT_NE(waitFor("CODEC_JPEG"), "");
+}
+
 TEST_F(SessionTest, ANewViewOfAnOldNumberHearsNothingOfTheOldOne) {
     openView();
     const workers::RenderRequest old = render.requests.back();

@@ -1,0 +1,231 @@
+#include "server/workers/isolating_service.h"
+
+#include <algorithm>
+#include <deque>
+#include <fcntl.h>
+#include <future>
+#include <list>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <utility>
+
+#include <spdlog/spdlog.h>
+
+#include "renderer/scene/user_controls.h"
+#include "server/workers/quarantine.h"
+
+namespace volcast::workers {
+namespace {
+
+bool runsCode(const scene::Scene& scene) {
+    return std::ranges::any_of(scene.layers, scene::runsUserCode);
+}
+
+base::FileDescriptor copyOf(const base::FileDescriptor& descriptor) {
+    return base::FileDescriptor{::fcntl(descriptor.get(), F_DUPFD_CLOEXEC, 0)};
+}
+
+// A request may fail a few newer ones later.
+constexpr std::size_t kMostRemembered = 8;
+
+/// The service of one view. It starts on a thread of its own, because that takes as long as a
+/// worker does to start; until then the newest request waits here.
+struct OwnService {
+    std::unique_ptr<RenderService> service;  ///< Null while it starts.
+    std::optional<RenderRequest> waiting;
+    std::deque<std::pair<std::uint64_t, scene::Scene>> asked;  ///< Newest tags and their scenes.
+    bool ended = false;  ///< While it starts: nobody wants it any more.
+};
+
+class IsolatingService final : public RenderService {
+public:
+    IsolatingService(RenderSettings settings, RenderEvents events)
+        : events_{std::move(events)}, settings_{std::move(settings)} {}
+    IsolatingService(const IsolatingService&) = delete;
+    IsolatingService& operator=(const IsolatingService&) = delete;
+    IsolatingService(IsolatingService&&) = delete;
+    IsolatingService& operator=(IsolatingService&&) = delete;
+
+    ~IsolatingService() override {
+        std::list<std::future<void>> tasks;
+        {
+            const std::scoped_lock lock{mutex_};
+            for (const auto& [view, own] : own_) own->ended = true;
+            tasks.swap(tasks_);
+        }
+        tasks.clear();  // Each waits for its end, without the lock that it may need.
+    }
+
+    Result<void> begin() {
+        auto shared = RenderService::create(settings_, events_);
+        if (!shared) return std::move(shared).error();
+        shared_ = *std::move(shared);
+        settings_.warmSpare = false;  // Of the views' own workers: one process a view.
+        return {};
+    }
+
+    void addDataset(const std::string& id, base::FileDescriptor packed) override {
+        const std::scoped_lock lock{mutex_};
+        shared_->addDataset(id, copyOf(packed));
+        for (const auto& [view, own] : own_) {
+            if (own->service) own->service->addDataset(id, copyOf(packed));
+        }
+        datasets_[id] = std::move(packed);
+    }
+
+    void removeDataset(const std::string& id) override {
+        const std::scoped_lock lock{mutex_};
+        shared_->removeDataset(id);
+        for (const auto& [view, own] : own_) {
+            if (own->service) own->service->removeDataset(id);
+        }
+        datasets_.erase(id);
+    }
+
+    void submit(RenderRequest request) override {
+        if (!runsCode(request.scene)) {
+            end(request.view);
+            return shared_->submit(std::move(request));
+        }
+        if (const auto refusal = submitOwn(request)) {
+            events_.failed(request.view, request.tag, *refusal);
+        }
+    }
+
+    void measure(MeasureRequest request) override {
+        const std::scoped_lock lock{mutex_};
+        const auto own = own_.find(request.view);
+        RenderService* service = own == own_.end() ? shared_.get() : own->second->service.get();
+        if (service != nullptr) service->measure(std::move(request));
+    }
+
+    void stopMeasuring(std::uint64_t view) override {
+        const std::scoped_lock lock{mutex_};
+        shared_->stopMeasuring(view);
+        const auto own = own_.find(view);
+        if (own != own_.end() && own->second->service) own->second->service->stopMeasuring(view);
+    }
+
+    void dropView(std::uint64_t view) override {
+        shared_->dropView(view);
+        end(view);
+    }
+
+    /// Of the worker that most views share.
+    [[nodiscard]] RenderStatus status() const override { return shared_->status(); }
+
+private:
+    /// Why the request is refused; nothing where it was taken.
+    std::optional<Error> submitOwn(RenderRequest& request) {
+        const std::scoped_lock lock{mutex_};
+        if (quarantine_.holds(request.scene)) {
+            return fail(ErrorCode::kDeviceLost,
+                        "this shader code took down two GL workers and is not run again");
+        }
+        const std::uint64_t view = request.view;
+        std::shared_ptr<OwnService>& own = own_[view];
+        if (own == nullptr && own_.size() > kMaxOwnWorkers) {
+            own_.erase(view);
+            return fail(ErrorCode::kLimitExceeded, "shader code runs in " +
+                                                       std::to_string(kMaxOwnWorkers) +
+                                                       " views already, the most at a time");
+        }
+        const bool fresh = own == nullptr;
+        if (fresh) own = std::make_shared<OwnService>();
+        own->asked.emplace_back(request.tag, request.scene);
+        if (own->asked.size() > kMostRemembered) own->asked.pop_front();
+        if (own->service) {
+            own->service->submit(std::move(request));
+        } else {
+            own->waiting = std::move(request);
+        }
+        if (!fresh) return std::nullopt;
+        shared_->dropView(view);
+        run([this, view, started = own] { start(view, started); });
+        return std::nullopt;
+    }
+
+    void start(std::uint64_t view, const std::shared_ptr<OwnService>& own) {
+        auto made = RenderService::create(settings_, eventsOf(view));
+        std::unique_ptr<RenderService> unwanted;  // Ends without the lock.
+        std::optional<RenderRequest> waiting;
+        {
+            const std::scoped_lock lock{mutex_};
+            waiting = std::exchange(own->waiting, std::nullopt);
+            if (made && own->ended) unwanted = *std::move(made);
+            if (!made && !own->ended) own_.erase(view);
+            if (made && !own->ended) {
+                own->service = *std::move(made);
+                for (const auto& [id, packed] : datasets_) {
+                    own->service->addDataset(id, copyOf(packed));
+                }
+                if (waiting) own->service->submit(*std::move(waiting));
+                return;
+            }
+        }
+        if (!made && waiting) events_.failed(view, waiting->tag, made.error());
+    }
+
+    /// Those of the view's own service. What took it down twice goes into quarantine.
+    RenderEvents eventsOf(std::uint64_t view) {
+        RenderEvents events = events_;
+        events.failed = [this, view](std::uint64_t of, std::uint64_t tag, Error error) {
+            if (error.code == ErrorCode::kDeviceLost) {
+                const std::scoped_lock lock{mutex_};
+                quarantine(view, tag);
+                spdlog::warn("shader code of view {} is in quarantine: {}", view, error.message);
+            }
+            events_.failed(of, tag, std::move(error));
+        };
+        return events;
+    }
+
+    /// Needs the lock.
+    void quarantine(std::uint64_t view, std::uint64_t tag) {
+        const auto own = own_.find(view);
+        if (own == own_.end()) return;
+        for (const auto& [asked, scene] : own->second->asked) {
+            if (asked == tag) quarantine_.add(scene);
+        }
+    }
+
+    /// Ends the view's own service, if it has one, without waiting for that.
+    void end(std::uint64_t view) {
+        const std::scoped_lock lock{mutex_};
+        const auto found = own_.find(view);
+        if (found == own_.end()) return;
+        const std::shared_ptr<OwnService> own = found->second;
+        own_.erase(found);
+        own->ended = true;
+        if (own->service) run([own] { own->service.reset(); });
+    }
+
+    /// On a thread of its own; needs the lock.
+    void run(std::function<void()> task) {
+        tasks_.remove_if([](const std::future<void>& one) {
+            return one.wait_for(std::chrono::seconds{0}) == std::future_status::ready;
+        });
+        tasks_.push_back(std::async(std::launch::async, std::move(task)));
+    }
+
+    RenderEvents events_;
+    RenderSettings settings_;
+    std::mutex mutex_;  ///< Of all below but `shared_`; services call back without it.
+    std::unique_ptr<RenderService> shared_;
+    std::map<std::string, base::FileDescriptor> datasets_;
+    std::map<std::uint64_t, std::shared_ptr<OwnService>> own_;
+    Quarantine quarantine_;
+    std::list<std::future<void>> tasks_;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<RenderService>> createIsolatingService(const RenderSettings& settings,
+                                                              RenderEvents events) {
+    auto service = std::make_unique<IsolatingService>(settings, std::move(events));
+    if (auto begun = service->begin(); !begun) return std::move(begun).error();
+    return std::unique_ptr<RenderService>{std::move(service)};
+}
+
+}  // namespace volcast::workers
