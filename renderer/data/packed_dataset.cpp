@@ -94,12 +94,14 @@ Result<base::FileDescriptor> packMesh(const Mesh& mesh) {
 
 Result<base::FileDescriptor> packVolume(const Volume& volume) {
     Writer writer;
-    const packed::VolumeHeader header{.spacing = volume.spacing,
-                                      .origin = volume.origin,
-                                      .direction = volume.direction,
-                                      .size = volume.size,
-                                      .type = static_cast<std::uint32_t>(volume.type),
-                                      .channels = volume.channels.size()};
+    const packed::VolumeHeader header{
+        .spacing = volume.spacing,
+        .origin = volume.origin,
+        .direction = volume.direction,
+        .size = volume.size,
+        .type = static_cast<std::uint32_t>(volume.type),
+        .channels = volume.channels.size(),
+        .coarserLevels = static_cast<std::uint64_t>(volume.coarserLevels())};
     writer.addOne(packed::Tag::kVolume, header);
     for (const Channel& channel : volume.channels) {
         writer.addOne(packed::Tag::kChannel, channel.range);
@@ -107,6 +109,10 @@ Result<base::FileDescriptor> packVolume(const Volume& volume) {
         writer.addText(channel.unit);
         writer.add(packed::Tag::kVoxels, channel.voxels.span());
         writer.add(packed::Tag::kBricks, channel.bricks.span());
+        for (const ChannelLevel& level : channel.coarser) {
+            writer.add(packed::Tag::kVoxels, level.voxels.span());
+            writer.add(packed::Tag::kBricks, level.bricks.span());
+        }
     }
     return writer.write(packed::Kind::kVolume);
 }
@@ -247,7 +253,7 @@ Result<Dataset> readMesh(Reader& reader) {
     return Dataset{std::move(mesh)};
 }
 
-Result<Dataset> readVolume(Reader& reader) {
+Result<Dataset> readVolume(Reader& reader, Trust trust) {
     const auto header = reader.takeOne<packed::VolumeHeader>(packed::Tag::kVolume);
     if (!header) return header.error();
     if (header->type > static_cast<std::uint32_t>(VoxelType::kF32)) {
@@ -269,9 +275,16 @@ Result<Dataset> readVolume(Reader& reader) {
             !store(reader.take<glm::vec2>(packed::Tag::kBricks), channel.bricks, error)) {
             return error;
         }
+        for (std::uint64_t level = 0; level < header->coarserLevels; ++level) {
+            ChannelLevel& coarser = channel.coarser.emplace_back();
+            if (!store(reader.take<std::byte>(packed::Tag::kVoxels), coarser.voxels, error) ||
+                !store(reader.take<glm::vec2>(packed::Tag::kBricks), coarser.bricks, error)) {
+                return error;
+            }
+        }
         volume.channels.push_back(std::move(channel));
     }
-    if (const auto checked = packed::check(volume); !checked) return checked.error();
+    if (const auto checked = packed::check(volume, trust); !checked) return checked.error();
     return Dataset{std::move(volume)};
 }
 
@@ -282,7 +295,7 @@ Result<base::FileDescriptor> pack(const Dataset& dataset) {
     return packVolume(std::get<Volume>(dataset));
 }
 
-Result<Dataset> unpack(const base::FileDescriptor& fd) {
+Result<Dataset> unpack(const base::FileDescriptor& fd, Trust trust) {
     if (!base::isSealedReadOnly(fd)) {
         return damaged("can still be written to, so checks of it mean nothing");
     }
@@ -294,7 +307,7 @@ Result<Dataset> unpack(const base::FileDescriptor& fd) {
     if (*kind != packed::Kind::kMesh && *kind != packed::Kind::kVolume) {
         return damaged("is neither a mesh nor a volume");
     }
-    auto dataset = *kind == packed::Kind::kMesh ? readMesh(reader) : readVolume(reader);
+    auto dataset = *kind == packed::Kind::kMesh ? readMesh(reader) : readVolume(reader, trust);
     if (!dataset) return dataset;
     if (const auto finished = reader.finish(); !finished) return finished.error();
     return dataset;

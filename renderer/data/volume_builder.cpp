@@ -8,6 +8,8 @@
 #include <optional>
 #include <set>
 
+#include "renderer/data/brick_ranges.h"
+#include "renderer/data/pyramid.h"
 #include "renderer/data/text.h"
 
 namespace volcast::data {
@@ -73,35 +75,6 @@ std::optional<std::size_t> firstNotFinite(const T* voxels, std::size_t count) {
     return std::nullopt;
 }
 
-/// Smallest and largest value of each brick; see Volume::brickGrid.
-template <class T>
-std::vector<glm::vec2> findBricks(const T* voxels, const Volume& volume) {
-    const glm::ivec3 grid = volume.brickGrid();
-    const glm::ivec3 size = volume.size;
-    std::vector<glm::vec2> bricks;
-    bricks.reserve(static_cast<std::size_t>(grid.x) * grid.y * grid.z);
-    for (int bz = 0; bz < grid.z; ++bz) {
-        for (int by = 0; by < grid.y; ++by) {
-            for (int bx = 0; bx < grid.x; ++bx) {
-                const glm::ivec3 first = Volume::kBrickSize * glm::ivec3{bx, by, bz};
-                const glm::ivec3 last = glm::min(first + Volume::kBrickSize, size - 1);
-                glm::vec2 range{kEmptyRange.min, kEmptyRange.max};
-                for (int z = first.z; z <= last.z; ++z) {
-                    for (int y = first.y; y <= last.y; ++y) {
-                        const T* row = voxels + (static_cast<std::size_t>(z) * size.y + y) * size.x;
-                        const auto [low, high] =
-                            std::minmax_element(row + first.x, row + last.x + 1);
-                        range.x = std::min(range.x, static_cast<float>(*low));
-                        range.y = std::max(range.y, static_cast<float>(*high));
-                    }
-                }
-                bricks.push_back(range);
-            }
-        }
-    }
-    return bricks;
-}
-
 template <class T>
 Result<Channel> buildChannel(ChannelInput input, const Volume& volume) {
     const std::size_t count = input.voxels.size() / sizeof(T);
@@ -117,7 +90,7 @@ Result<Channel> buildChannel(ChannelInput input, const Volume& volume) {
                         std::to_string(i / width / height) + ") is " +
                         std::to_string(static_cast<double>(voxels[i])) + ", not a finite number");
     }
-    std::vector<glm::vec2> bricks = findBricks(voxels, volume);
+    std::vector<glm::vec2> bricks = brickRanges(volume, 0, input.voxels);
     Range range = kEmptyRange;
     for (const glm::vec2& brick : bricks) {
         range = {.min = std::min(range.min, brick.x), .max = std::max(range.max, brick.y)};
@@ -126,7 +99,8 @@ Result<Channel> buildChannel(ChannelInput input, const Volume& volume) {
                    .unit = std::move(input.unit),
                    .range = range,
                    .voxels = std::move(input.voxels),
-                   .bricks = std::move(bricks)};
+                   .bricks = std::move(bricks),
+                   .coarser = {}};
 }
 
 Result<Channel> buildChannelOf(VoxelType type, ChannelInput input, const Volume& volume) {
@@ -179,7 +153,7 @@ Result<void> checkChannels(VolumeInput& input) {
 
 }  // namespace
 
-Result<Volume> buildVolume(VolumeInput input) {
+Result<Volume> buildVolume(VolumeInput input, const std::function<void(double)>& pyramidProgress) {
     if (const auto checked = checkGrid(input); !checked) return checked.error();
     if (const auto checked = checkChannels(input); !checked) return checked.error();
     const auto axes = orthonormal(input.direction);
@@ -198,6 +172,15 @@ Result<Volume> buildVolume(VolumeInput input) {
         auto built = buildChannelOf(input.type, std::move(channel), volume);
         if (!built) return built.error();
         volume.channels.push_back(std::move(*built));
+    }
+    if (pyramidLevels(volume.size) == 0) return volume;
+    const auto count = static_cast<double>(volume.channels.size());
+    double done = 0.0;
+    for (Channel& channel : volume.channels) {
+        channel.coarser = buildPyramid(volume, channel, [&](double share) {
+            if (pyramidProgress) pyramidProgress((done + share) / count);
+        });
+        done += 1.0;
     }
     return volume;
 }

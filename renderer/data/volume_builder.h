@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -32,11 +33,13 @@ inline constexpr int kMaxVolumeSide = 1 << 15;
 inline constexpr std::size_t kMaxVolumeBytes = std::size_t{1} << 40;  ///< Of one channel.
 inline constexpr std::size_t kMaxChannels = 256;
 
-/// Checks voxels and finds their ranges and bricks.
+/// Checks voxels, finds their ranges and bricks, and builds the pyramid of a large volume;
+/// `pyramidProgress` (may be empty) is told the share of the last that is done.
 ///
 /// Errors: kInvalidArgument (a size below 1, spacing that is not > 0, a number that is not finite,
 /// a wrong number of bytes, no channel, a doubled or empty channel name), kUnsupported (axes that
 /// are not perpendicular), kLimitExceeded (size or channels).
-Result<Volume> buildVolume(VolumeInput input);
+Result<Volume> buildVolume(VolumeInput input,
+                           const std::function<void(double)>& pyramidProgress = {});
 
 }  // namespace volcast::data

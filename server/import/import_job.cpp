@@ -85,13 +85,14 @@ struct Outcome {
     std::vector<std::string> warnings;
 };
 
-Result<data::Dataset> build(data::load::Loaded& loaded) {
+Result<data::Dataset> build(data::load::Loaded& loaded, ProgressSender& progress) {
     if (auto* mesh = std::get_if<data::MeshInput>(&loaded.input)) {
         auto built = data::buildMesh(std::move(*mesh));
         if (!built) return built.error();
         return data::Dataset{std::move(*built)};
     }
-    auto built = data::buildVolume(std::move(std::get<data::VolumeInput>(loaded.input)));
+    auto built = data::buildVolume(std::move(std::get<data::VolumeInput>(loaded.input)),
+                                   [&progress](double share) { progress("pyramid", share); });
     if (!built) return built.error();
     return data::Dataset{std::move(*built)};
 }
@@ -110,7 +111,7 @@ Result<Outcome> import(const data::load::Request& request, data::load::ImageRead
         readImages);
     if (!loaded) return loaded.error();
     progress("build", 0.0);
-    const auto dataset = build(*loaded);
+    const auto dataset = build(*loaded, progress);
     if (!dataset) return named(dataset.error());
     progress("pack", 0.0);
     auto packed = data::pack(*dataset);
