@@ -34,8 +34,9 @@ inline constexpr const char* kHeadlight = "headlight";            ///< Surface: 
 
 // Voxels; kInterpolation: trilinear or tricubic instead of nearest.
 inline constexpr const char* kEmptyBricks =
-    "empty bricks";                             ///< Bricks without a share are skipped.
-inline constexpr const char* kLight = "light";  ///< Volume: needs the field's slope at samples.
+    "empty bricks";                               ///< Bricks without a share are skipped.
+inline constexpr const char* kBricks = "bricks";  ///< Voxels are loaded by bricks, as needed.
+inline constexpr const char* kLight = "light";    ///< Volume: needs the field's slope at samples.
 inline constexpr const char* kStepEnlarged = "step enlarged";  ///< The step asked for is too small.
 
 }  // namespace volcast::plan

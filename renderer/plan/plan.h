@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -59,9 +60,20 @@ inline constexpr int kMaxRaySamples = 60'000;
 /// derived in shaders/volume/march_ray.glsl.
 inline constexpr float kTricubicOvershoot = 0.48F;
 
+/// The same where voxels are bricks, whose search takes rounds, too: rays cross at most 2,080
+/// bricks of the largest volume, 32,768^2 x 1,024 voxels, and a search takes at most 11.
+inline constexpr int kMaxBrickedRaySamples = 40'000;
+
+/// What the machine has to offer.
+struct Limits {
+    /// Of GPU memory: a channel that takes more is drawn from bricks.
+    std::uint64_t volumeBytes = std::uint64_t{1} << 30;
+    std::uint64_t pictureBytes = std::uint64_t{16} << 20;  ///< Of bricks that one picture loads.
+};
+
 /// `scene` must be valid against `summaries`. `evidence` decides where the scene bounds error or
 /// time.
 FramePlan plan(const scene::Scene& scene, const scene::Summaries& summaries,
-               const SceneEvidence& evidence = {});
+               const SceneEvidence& evidence = {}, const Limits& limits = {});
 
 }  // namespace volcast::plan

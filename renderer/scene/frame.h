@@ -22,7 +22,8 @@ struct LayerDraw {
     const mesh::FieldGpu* field = nullptr;
     const mesh::FieldGpu* density = nullptr;
     const volume::ChannelGpu* channel = nullptr;
-    std::vector<float> levels;  // Of an isosurface.
+    const volume::BrickPool* pool = nullptr;  // Instead, of voxels in bricks.
+    std::vector<float> levels;                // Of an isosurface.
     std::vector<shading::Constant> constants;
 };
 

@@ -146,10 +146,18 @@ Result<void> checkSlot(const Assembled& assembled, const std::vector<FunctionDef
 
 }  // namespace
 
-Result<Assembled> assemble(const Recipe& recipe, const ChunkSource& chunks) {
+ChunkSource withTexts(const std::vector<TextChunk>& texts, const ChunkSource& chunks) {
+    return [&texts, &chunks](std::string_view path) -> std::optional<std::string> {
+        const auto found = std::ranges::find(texts, path, &TextChunk::path);
+        return found == texts.end() ? chunks(path) : found->text;
+    };
+}
+
+Result<Assembled> assemble(const Recipe& recipe, const ChunkSource& files) {
     if (recipe.evaluator.empty()) {
         return fail(ErrorCode::kShaderBuild, "a recipe without an evaluator draws nothing");
     }
+    const ChunkSource chunks = withTexts(recipe.texts, files);
     Writer writer{chunks};
     writer.constants(recipe.constants);
     for (const char* contract : {"contract/ray.glsl", "contract/segment.glsl"}) {

@@ -27,6 +27,13 @@ struct Constant {
     friend bool operator==(const Constant&, const Constant&) = default;
 };
 
+/// A chunk that is no file: text made for one program.
+struct TextChunk {
+    std::string path;
+    std::string text;
+    friend bool operator==(const TextChunk&, const TextChunk&) = default;
+};
+
 /// Which chunk fills each slot; also the key of the program cache. Empty slots are left out.
 struct Recipe {
     std::string evaluator;
@@ -34,6 +41,7 @@ struct Recipe {
     std::string segment;
     std::string model;
     std::vector<Constant> constants;
+    std::vector<TextChunk> texts = {};  ///< Found before files of the same path.
     friend bool operator==(const Recipe&, const Recipe&) = default;
 };
 
@@ -57,6 +65,9 @@ struct Assembled {
 /// Errors: kShaderBuild (missing chunk, missing or doubled slot function, include cycle), naming
 /// file and line.
 Result<Assembled> assemble(const Recipe& recipe, const ChunkSource& chunks);
+
+/// `chunks`, but `texts` first; both must outlive what is returned.
+ChunkSource withTexts(const std::vector<TextChunk>& texts, const ChunkSource& chunks);
 
 /// A single file with its includes, for passes that are not ray programs (vertex, compute).
 Result<Assembled> assembleFile(const std::string& path, const std::vector<Constant>& constants,

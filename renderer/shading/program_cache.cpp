@@ -26,9 +26,10 @@ gpu::StageSource stage(gpu::Stage kind, const Assembled& assembled) {
 }  // namespace
 
 Result<const gpu::Program*> ProgramCache::ray(const Recipe& recipe, const std::string& vertex) {
-    const std::string key =
+    std::string key =
         keyOf({vertex, recipe.evaluator, recipe.classify, recipe.segment, recipe.model},
               recipe.constants);
+    for (const TextChunk& chunk : recipe.texts) key += chunk.path + "=" + chunk.text + "|";
     if (const auto found = programs_.find(key); found != programs_.end()) {
         return found->second.get();
     }

@@ -89,6 +89,15 @@ private:
         return {range.x - over, range.y + over};
     }
 
+    [[nodiscard]] bool isOutside(const Box& box) const {
+        if (view_.sections && !glm::any(glm::lessThanEqual(box.low, *view_.sections) &&
+                                        glm::greaterThanEqual(box.high, *view_.sections))) {
+            return true;
+        }
+        return std::ranges::any_of(
+            view_.planes, [&](const glm::dvec4& plane) { return largest(plane, box) < 0.0; });
+    }
+
     [[nodiscard]] BrickNode made(const Brick& brick) const {
         BrickNode node{.brick = brick, .range = rangeOf(brick)};
         const Box box = boxOf(brick);
@@ -97,9 +106,7 @@ private:
         const double seen = view_.perspective ? std::max(at(view_.depth, centre), 1e-300) : 1.0;
         node.fromMiddle =
             glm::length(glm::dvec2(at(view_.right, centre), at(view_.up, centre)) / seen);
-        const bool outside = std::ranges::any_of(
-            view_.planes, [&](const glm::dvec4& plane) { return largest(plane, box) < 0.0; });
-        if (outside) {
+        if (isOutside(box)) {
             node.need = Need::kOutside;
         } else if (view_.shows && !view_.shows(node.range)) {
             node.need = Need::kHidden;

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -21,8 +22,11 @@ struct Brick {
 /// How a picture samples a volume; all of it in grid coordinates of level 0.
 struct BrickView {
     std::vector<glm::dvec4> planes;  ///< Seen where dot(xyz, point) + w >= 0 for all.
-    glm::dvec4 depth{0.0};           ///< World units: dot(xyz, point) + w.
-    glm::dvec4 right{0.0};           ///< Likewise, to the right of the picture's middle.
+    /// Planes across the axes, NaN for none: seen where a point is on one of them. None: no such
+    /// planes, but rays.
+    std::optional<glm::dvec3> sections = {};
+    glm::dvec4 depth{0.0};  ///< World units: dot(xyz, point) + w.
+    glm::dvec4 right{0.0};  ///< Likewise, to the right of the picture's middle.
     glm::dvec4 up{0.0};
     double footprint = 0.0;      ///< World units across a pixel: at depth 1, or anywhere.
     bool perspective = true;     ///< The footprint grows with depth.

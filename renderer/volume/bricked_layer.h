@@ -23,17 +23,23 @@ struct BrickReport {
     [[nodiscard]] bool ready() const noexcept { return resident == needed; }
 };
 
+/// What a picture of one layer may ask of a pool.
+struct BrickRequest {
+    const data::Volume* volume = nullptr;
+    const data::Channel* channel = nullptr;
+    std::uint64_t number = 0;  ///< Of the channel; see BrickPool::Key.
+    BrickView view;
+    std::size_t capacity = 1;  ///< Bricks that it may use.
+};
+
 /// A channel as a layer of a view draws it: the tree of its bricks, those that are there.
 class BrickedLayer {
 public:
     /// Chooses the bricks of a picture and loads those that `pool` lacks, coarse first, until
     /// `loadBytes` are used up (which it lowers); the first always.
     ///
-    /// `number`: of the channel, see BrickPool::Key. `capacity`: bricks that it may use.
     /// Errors: kOutOfGpuMemory.
-    Result<BrickReport> prepare(gpu::Device& device, BrickPool& pool, std::uint64_t number,
-                                const data::Volume& volume, const data::Channel& channel,
-                                const BrickView& view, std::size_t capacity,
+    Result<BrickReport> prepare(gpu::Device& device, BrickPool& pool, const BrickRequest& request,
                                 std::size_t& loadBytes);
 
     /// The tree and the voxels of `pool`.

@@ -173,6 +173,7 @@ Result<wire::Rendered> Loop::draw(const wire::Render& request, const Descriptors
     rendered.set_cpu_ms(cpuMs() - cpuBefore);
     rendered.set_peak_mb(peakMb());
     rendered.set_drawn(info->drawn);
+    rendered.set_ready(info->ready);
     put(info->work, rendered.mutable_work());
     return rendered;
 }

@@ -9,6 +9,7 @@
 // bits of a voxel are a number.
 #include "lib/layer.glsl"
 #include "lib/unit.glsl"
+#include "shared/brick_pool.glsl"
 
 layout(binding = kVoxelUnit) uniform usampler3D brickVoxels;
 layout(binding = kBrickUnit) uniform isamplerBuffer brickTree;
@@ -16,10 +17,6 @@ layout(binding = kBrickUnit) uniform isamplerBuffer brickTree;
 const int kNearest = 0;
 const int kTrilinear = 1;
 const int kTricubic = 2;
-
-const int kUnsigned = 0;
-const int kSigned16 = 1;
-const int kFloat = 2;
 
 // A part of the volume that one brick serves.
 struct Page {
@@ -29,19 +26,25 @@ struct Page {
     int level;     // of the brick
     ivec3 first;   // the brick's first grid point, at its level
     ivec3 texels;  // where the level's grid point 0 would be in the texture
+    float shift;   // taken off all voxels
 };
 
 // The one of the last value asked for: most samples are followed by one in the same.
-Page page = Page(vec3(1.0), vec3(0.0), vec2(0.0), 0, ivec3(0), ivec3(0));
+Page page = Page(vec3(1.0), vec3(0.0), vec2(0.0), 0, ivec3(0), ivec3(0), 0.0);
 
 ivec3 lastPoint(int level) {
     return (ivec3(layer.grid.xyz) - 2 + (1 << level)) >> level;
 }
 
+ivec3 lastPoint() {
+    return lastPoint(0);
+}
+
 Page pageAt(vec3 at) {
     Page found;
     ivec3 finest = min(ivec3(at) / kPoolBrick, max((lastPoint(0) - 1) / kPoolBrick, ivec3(0)));
-    int node = 0;
+    int node = kRootNode;
+    found.shift = intBitsToFloat(texelFetch(brickTree, kTreeHead).x);
     for (int level = kCoarserLevels; level >= 0; --level) {
         ivec4 entry = texelFetch(brickTree, node);
         ivec3 place = finest >> level;
@@ -57,8 +60,8 @@ Page pageAt(vec3 at) {
         found.low = vec3(place) * side;
         found.high = found.low + side;
         if (entry.x == 0) break;
-        ivec3 half = (finest >> (level - 1)) & 1;
-        node = entry.x + half.x + 2 * half.y + 4 * half.z;
+        ivec3 child = (finest >> (level - 1)) & 1;
+        node = entry.x + child.x + 2 * child.y + 4 * child.z;
     }
     return found;
 }
@@ -84,8 +87,8 @@ vec3 gridFromLevel(vec3 at, int level) {
 
 float voxel(ivec3 texel) {
     uint bits = texelFetch(brickVoxels, texel, 0).r;
-    if (kVoxelKind == kFloat) return uintBitsToFloat(bits);
-    return kVoxelKind == kSigned16 ? float(int(bits << 16) >> 16) : float(bits);
+    if (kVoxelKind == kFloatVoxels) return uintBitsToFloat(bits) - page.shift;
+    return (kVoxelKind == kSignedVoxels ? float(int(bits << 16) >> 16) : float(bits)) - page.shift;
 }
 
 float trilinear(ivec3 low, vec3 t) {
@@ -165,12 +168,4 @@ vec3 normalAt(vec3 at) {
     // Quarters, because the difference of two large values may not be a number.
     vec3 slope = (0.25 * above - 0.25 * below) / max(extent, vec3(0.5));
     return unit(transpose(mat3(layer.gridFromData)) * unit(slope));
-}
-
-// The part of the volume that holds `at`: the range of its values, and where it ends.
-vec2 rangeAround(vec3 at, out vec3 low, out vec3 high) {
-    turnTo(clamp(at, vec3(0.0), layer.grid.xyz - 1.0));
-    low = page.low;
-    high = page.high;
-    return page.range;
 }
