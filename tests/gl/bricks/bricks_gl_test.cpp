@@ -91,6 +91,7 @@ protected:
 
     void showAll() { scene_.camera.orthographicHeight = 120.0; }
 
+    /// With a pool of `bricks`, or of the least that there is.
     static std::unique_ptr<scene::Renderer> bricked(const data::Volume& volume, int bricks,
                                                     int bricksAPicture = 1000) {
         const std::size_t each = volume::BrickPool::brickBytes(volume.type);
@@ -120,12 +121,9 @@ protected:
         return worst;
     }
 
-    static double largestAlpha(const support::Drawn& drawn) {
-        double largest = 0.0;
-        for (std::size_t i = 3; i < drawn.linear.size(); i += 4) {
-            largest = std::max(largest, static_cast<double>(drawn.linear[i]));
-        }
-        return largest;
+    /// Of all colours and opacities.
+    static float largest(const support::Drawn& drawn) {
+        return *std::ranges::max_element(drawn.linear);
     }
 
     scene::Scene scene_;
@@ -149,7 +147,7 @@ TEST_F(Bricks, EveryVoxelTypeIsDrawnAsIfItWereThereAsAWhole) {
         const bool isSigned = volume.type == VoxelType::kI16;
         scene_.layers[0].map = isSigned ? map(-100.0F, 100.0F) : map(0.0F, 200.0F);
         renderer_->addDataset("volume", volume);
-        const auto renderer = bricked(volume, 100);
+        const auto renderer = bricked(volume, 1);
         for (const Sampling sampling :
              {Sampling::kNearest, Sampling::kTrilinear, Sampling::kTricubic}) {
             scene_.layers[0].sampling = sampling;
@@ -158,7 +156,7 @@ TEST_F(Bricks, EveryVoxelTypeIsDrawnAsIfItWereThereAsAWhole) {
             ASSERT_EQ(whole.info.bricks.size(), 0U);
             ASSERT_EQ(parts.info.bricks.size(), 1U);
             EXPECT_EQ(parts.info.bricks[0].report.coarsest, 0);
-            EXPECT_GT(largestAlpha(whole), 0.3);
+            EXPECT_GT(largest(whole), 0.3F);
             // Without the texture unit the same numbers are added in the same order.
             const double allowed = sampling == Sampling::kTrilinear ? kFiltering : 2e-6;
             EXPECT_LE(largestDifference(whole, parts), allowed)
@@ -170,24 +168,30 @@ TEST_F(Bricks, EveryVoxelTypeIsDrawnAsIfItWereThereAsAWhole) {
 TEST_F(Bricks, EveryModelIsDrawnAsIfItWereThereAsAWhole) {
     const data::Volume volume = volumeAs<std::uint8_t>(VoxelType::kU8, blobs);
     renderer_->addDataset("volume", volume);
-    const auto renderer = bricked(volume, 100);
+    const auto renderer = bricked(volume, 1);
     scene::Layer& layer = scene_.layers[0];
-    layer.sampling = Sampling::kTricubic;  // No texture unit.
     layer.levels.values = {40.0F, 90.0F};
-    for (const RayModel model :
-         {RayModel::kMip, RayModel::kMinip, RayModel::kMipColour, RayModel::kXray, RayModel::kSplat,
-          RayModel::kIsosurface, RayModel::kVolume, RayModel::kCrossSections}) {
-        layer.model = model;
-        layer.light = model == RayModel::kVolume ? std::optional{scene::Light{}} : std::nullopt;
-        for (const bool interval : {false, true}) {
-            layer.interval = interval ? std::optional{data::Range{30.0F, 120.0F}} : std::nullopt;
-            const support::Drawn whole = draw(scene_, kSize);
-            const support::Drawn parts = complete(*renderer);
-            ASSERT_EQ(parts.info.bricks.size(), 1U);
-            EXPECT_LE(largestDifference(whole, parts), 2e-6)
-                << static_cast<int>(model) << " " << interval;
-            EXPECT_GT(largestAlpha(whole), 0.0);
-        }
+    struct Row {
+        RayModel model;
+        Sampling sampling = Sampling::kNearest;  // Or tricubic: without the texture unit.
+        bool interval = false, lit = false;
+    };
+    for (const Row& row :
+         {Row{RayModel::kMip}, Row{RayModel::kMinip}, Row{RayModel::kMipColour},
+          Row{RayModel::kXray}, Row{RayModel::kSplat}, Row{RayModel::kCrossSections},
+          Row{RayModel::kMip, Sampling::kNearest, true},
+          Row{RayModel::kVolume, Sampling::kNearest, true},
+          Row{RayModel::kVolume, Sampling::kTricubic, false, true},
+          Row{RayModel::kIsosurface, Sampling::kTricubic}}) {
+        layer.model = row.model;
+        layer.sampling = row.sampling;
+        layer.light = row.lit ? std::optional{scene::Light{}} : std::nullopt;
+        layer.interval = row.interval ? std::optional{data::Range{30.0F, 120.0F}} : std::nullopt;
+        const support::Drawn whole = draw(scene_, kSize);
+        const support::Drawn parts = complete(*renderer);
+        ASSERT_EQ(parts.info.bricks.size(), 1U);
+        EXPECT_LE(largestDifference(whole, parts), 2e-6) << static_cast<int>(row.model);
+        EXPECT_GT(largest(whole), 0.0F) << static_cast<int>(row.model);
     }
 }
 
@@ -196,7 +200,7 @@ TEST_F(Bricks, EveryModelIsDrawnAsIfItWereThereAsAWhole) {
 TEST_F(Bricks, LevelsAreNotShifted) {
     const data::Volume volume = volumeAs<float>(VoxelType::kF32, linear);
     renderer_->addDataset("volume", volume);
-    const auto renderer = bricked(volume, 100);
+    const auto renderer = bricked(volume, 1);
     scene_.layers[0].map = map(-160.0F, 380.0F);
     showAll();
     for (const Sampling sampling : {Sampling::kTrilinear, Sampling::kTricubic}) {
@@ -210,7 +214,7 @@ TEST_F(Bricks, LevelsAreNotShifted) {
             EXPECT_LE(largestDifference(whole, parts), kFiltering);
         }
         // A cubic through repeated faces is not linear there, and farther in the coarser it is.
-        EXPECT_GT(largestAlpha(parts), 0.3);
+        EXPECT_GT(largest(parts), 0.3F);
     }
     scene_.camera.projection = scene::Projection::kPerspective;
     scene_.camera.eye = center_ + kPlace.direction * glm::dvec3(0.0, 0.0, 45.0);
@@ -238,10 +242,10 @@ TEST_F(Bricks, WhatCannotShowIsNotLoadedAndNotMissed) {
         const support::Drawn parts = complete(*renderer);
         const volume::BrickReport& report = parts.info.bricks.at(0).report;
         EXPECT_EQ(report.coarsest, 0);
-        EXPECT_GT(report.hidden, 3U);
-        EXPECT_LT(report.needed, kAllBricks / 2U);
+        EXPECT_GT(report.hidden, 0U);
+        EXPECT_LT(report.needed + report.outside, static_cast<std::size_t>(kAllBricks));
         EXPECT_LE(largestDifference(whole, parts), 2e-6) << static_cast<int>(model);
-        EXPECT_GT(largestAlpha(whole), 0.3);
+        EXPECT_GT(largest(whole), 0.3F);
     }
 }
 
