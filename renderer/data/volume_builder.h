@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,18 @@ struct VolumeInput {
 inline constexpr int kMaxVolumeSide = 1 << 15;
 inline constexpr std::size_t kMaxVolumeBytes = std::size_t{1} << 40;  ///< Of one channel.
 inline constexpr std::size_t kMaxChannels = 256;
+
+/// A volume without channels, of an input that needs no voxels yet; names become UTF-8 in it.
+///
+/// Errors: as buildVolume(), but for voxels.
+Result<Volume> buildGrid(VolumeInput& input);
+
+/// Errors: kInvalidArgument naming the first voxel that is not finite.
+Result<void> checkFinite(const Volume& volume, const std::string& channel,
+                         std::span<const std::byte> voxels);
+
+/// The range of a channel with these bricks, of which there is at least one.
+Range rangeOf(std::span<const glm::vec2> bricks);
 
 /// Checks voxels, finds their ranges and bricks, and builds the pyramid of a large volume;
 /// `pyramidProgress` (may be empty) is told the share of the last that is done.
