@@ -27,24 +27,36 @@ struct Page {
     ivec3 first;   // the brick's first grid point, at its level
     ivec3 texels;  // where the level's grid point 0 would be in the texture
     float shift;   // taken off all voxels
+    // Of its level, for each axis: the last grid point and the one before it, where the last interval
+    // begins; 1 / the interval before that point and behind it, in intervals of level 0.
+    vec3 last;
+    vec3 before;
+    float perInterval;
+    vec3 perLastInterval;
 };
 
 // The one of the last value asked for: most samples are followed by one in the same.
-Page page = Page(vec3(1.0), vec3(0.0), vec2(0.0), 0, ivec3(0), ivec3(0), 0.0);
+Page page = Page(vec3(1.0), vec3(0.0), vec2(0.0), 0, ivec3(0), ivec3(0), 0.0,
+                 vec3(0.0), vec3(0.0), 1.0, vec3(1.0));
+
+// Computed before any loop, because llvmpipe reads a uniform again in each round: see
+// classify/transfer_function.glsl.
+ivec3 gridLast = ivec3(layer.grid.xyz + max(-gl_FragCoord.x, 0.0)) - 1;
+float voxelShift = intBitsToFloat(texelFetch(brickTree, kTreeHead).x);
 
 ivec3 lastPoint(int level) {
-    return (ivec3(layer.grid.xyz) - 2 + (1 << level)) >> level;
+    return (gridLast + (1 << level) - 1) >> level;
 }
 
 ivec3 lastPoint() {
-    return lastPoint(0);
+    return gridLast;
 }
 
 Page pageAt(vec3 at) {
     Page found;
     ivec3 finest = min(ivec3(at) / kPoolBrick, max((lastPoint(0) - 1) / kPoolBrick, ivec3(0)));
     int node = kRootNode;
-    found.shift = intBitsToFloat(texelFetch(brickTree, kTreeHead).x);
+    found.shift = voxelShift;
     for (int level = kCoarserLevels; level >= 0; --level) {
         ivec4 entry = texelFetch(brickTree, node);
         ivec3 place = finest >> level;
@@ -63,6 +75,11 @@ Page pageAt(vec3 at) {
         ivec3 child = (finest >> (level - 1)) & 1;
         node = entry.x + child.x + 2 * child.y + 4 * child.z;
     }
+    float interval = float(1 << found.level);
+    found.last = vec3(lastPoint(found.level));
+    found.before = max(found.last - 1.0, vec3(0.0));
+    found.perInterval = 1.0 / interval;
+    found.perLastInterval = 1.0 / max(vec3(gridLast) - interval * found.before, vec3(1.0));
     return found;
 }
 
@@ -70,19 +87,15 @@ void turnTo(vec3 at) {
     if (any(lessThan(at, page.low)) || any(greaterThan(at, page.high))) page = pageAt(at);
 }
 
-// A place at grid coordinates of a level, and back.
-vec3 levelFromGrid(vec3 at, int level) {
-    vec3 before = vec3(max(lastPoint(level) - 1, ivec3(0)));
-    float side = float(1 << level);
-    vec3 rest = max(vec3(lastPoint(0)) - side * before, vec3(1.0));
-    return min(at / side, before) + max(at - side * before, vec3(0.0)) / rest;
+// A place at grid coordinates of the page's level, and back.
+vec3 levelFromGrid(vec3 at) {
+    return min(at * page.perInterval, page.before) +
+           max(at - page.before / page.perInterval, vec3(0.0)) * page.perLastInterval;
 }
 
-vec3 gridFromLevel(vec3 at, int level) {
-    vec3 before = vec3(max(lastPoint(level) - 1, ivec3(0)));
-    float side = float(1 << level);
-    vec3 rest = vec3(lastPoint(0)) - side * before;
-    return side * min(at, before) + max(at - before, vec3(0.0)) * rest;
+vec3 gridFromLevel(vec3 at) {
+    return min(at, page.before) / page.perInterval +
+           max(at - page.before, vec3(0.0)) / page.perLastInterval;
 }
 
 float voxel(ivec3 texel) {
@@ -129,7 +142,7 @@ float tricubic(ivec3 low, vec3 t) {
 // The value at grid coordinates `at` of the page's level, at most one grid interval outside of its
 // brick: a border of kBrickBorder points serves all that is read.
 float valueInPage(vec3 at) {
-    ivec3 last = lastPoint(page.level);
+    ivec3 last = ivec3(page.last);
     if (kSampling == kNearest) {
         return voxel(page.texels + clamp(ivec3(floor(at + 0.5)), ivec3(0), last));
     }
@@ -144,27 +157,27 @@ float valueInPage(vec3 at) {
 // The value at grid coordinates `at`. Where a coarser brick stands in for one that was left out for
 // what is in it, values stay within that.
 float valueAt(vec3 at) {
-    at = clamp(at, vec3(0.0), layer.grid.xyz - 1.0);
+    at = clamp(at, vec3(0.0), vec3(gridLast));
     turnTo(at);
-    return clamp(valueInPage(levelFromGrid(at, page.level)), page.range.x, page.range.y);
+    return clamp(valueInPage(levelFromGrid(at)), page.range.x, page.range.y);
 }
 
 // The direction in which the field rises most, of length 1 in the world; 0 where it is flat. By
 // central differences over a grid interval of the level to each side; at a face of the box one side
 // is shorter.
 vec3 normalAt(vec3 at) {
-    at = clamp(at, vec3(0.0), layer.grid.xyz - 1.0);
+    at = clamp(at, vec3(0.0), vec3(gridLast));
     turnTo(at);
-    vec3 middle = levelFromGrid(at, page.level);
+    vec3 middle = levelFromGrid(at);
     vec3 low = max(middle - 1.0, vec3(0.0));
-    vec3 high = min(middle + 1.0, vec3(lastPoint(page.level)));
+    vec3 high = min(middle + 1.0, page.last);
     vec3 above = vec3(valueInPage(vec3(high.x, middle.yz)),
                       valueInPage(vec3(middle.x, high.y, middle.z)),
                       valueInPage(vec3(middle.xy, high.z)));
     vec3 below = vec3(valueInPage(vec3(low.x, middle.yz)),
                       valueInPage(vec3(middle.x, low.y, middle.z)),
                       valueInPage(vec3(middle.xy, low.z)));
-    vec3 extent = gridFromLevel(high, page.level) - gridFromLevel(low, page.level);
+    vec3 extent = gridFromLevel(high) - gridFromLevel(low);
     // Quarters, because the difference of two large values may not be a number.
     vec3 slope = (0.25 * above - 0.25 * below) / max(extent, vec3(0.5));
     return unit(transpose(mat3(layer.gridFromData)) * unit(slope));
