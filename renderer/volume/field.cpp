@@ -30,16 +30,14 @@ FieldTraits fieldTraits(const DrawInputs& inputs) {
 void addField(shading::Recipe& recipe, const FieldTraits& traits) {
     recipe.constants.insert(
         recipe.constants.end(),
-        {{"kBricked", traits.bricked},
-         {"kRangeBlock", kRangeBlock},
+        {{"kRangeBlock", kRangeBlock},
          {"kRangeReach", traits.bricked ? shading::shared::kBrickReach : kRangeReach}});
     if (!traits.bricked) return;
     recipe.constants.insert(recipe.constants.end(), {{"kCoarserLevels", traits.coarserLevels},
                                                      {"kVoxelKind", voxelKind(traits.type)}});
     // Whoever reads voxels gets them from bricks.
     recipe.texts.push_back({"volume/voxels.glsl", "#include \"volume/bricked_voxels.glsl\"\n"});
-    recipe.texts.push_back(
-        {"volume/ranges.glsl", "#include \"volume/bricked_ranges.glsl\"\n"});
+    recipe.texts.push_back({"volume/ranges.glsl", "#include \"volume/bricked_ranges.glsl\"\n"});
 }
 
 VoxelTexels texelsOf(const DrawInputs& inputs) {
