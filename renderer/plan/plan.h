@@ -60,9 +60,12 @@ inline constexpr int kMaxRaySamples = 60'000;
 /// derived in shaders/volume/march_ray.glsl.
 inline constexpr float kTricubicOvershoot = 0.48F;
 
-/// The same where voxels are bricks, whose search takes rounds, too: rays cross at most 2,080
-/// bricks of the largest volume, 32,768^2 x 1,024 voxels, and a search takes at most 11.
-inline constexpr int kMaxBrickedRaySamples = 40'000;
+/// The same where voxels are bricks, whose search takes rounds, too. Ranges are asked for every 32
+/// grid intervals along the axis that a ray advances most on, each by at most 8 searches of at most
+/// 9 levels and a round more: 256 times 80 rounds for kMaxSkippedSide, beyond which none are asked
+/// for. Rays enter at most 3 times 256 bricks beside that.
+inline constexpr int kMaxBrickedRaySamples = 36'000;
+inline constexpr int kMaxSkippedSide = 8192;
 
 /// What the machine has to offer.
 struct Limits {

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "renderer/plan/effects.h"
 #include "renderer/plan/matter.h"
 
@@ -34,6 +36,18 @@ void limitSamples(LayerPlan& plan, const Matter& matter) {
     plan.stepWorld = smallest;
 }
 
+/// Ranges of bricks are not asked for where that could take too many rounds.
+void limitSkipping(LayerPlan& plan, const Matter& matter) {
+    const glm::ivec3 voxels = matter.summary.voxels;
+    if (std::max({voxels.x, voxels.y, voxels.z}) <= kMaxSkippedSide) return;
+    for (Effect& effect : plan.effects) {
+        if (effect.name != kEmptyBricks || !effect.on) continue;
+        effect.on = false;
+        effect.reason = "the volume has more than " + std::to_string(kMaxSkippedSide) +
+                        " voxels along an axis: no ranges are asked for";
+    }
+}
+
 }  // namespace
 
 void planResidency(LayerPlan& plan, const Matter& matter, const Limits& limits) {
@@ -54,6 +68,7 @@ void planResidency(LayerPlan& plan, const Matter& matter, const Limits& limits) 
     } else {
         add(plan, kBricks, true, taken + ": loaded by bricks of its pyramid");
         limitSamples(plan, matter);
+        limitSkipping(plan, matter);
     }
 }
 
