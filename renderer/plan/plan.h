@@ -61,11 +61,11 @@ inline constexpr int kMaxRaySamples = 60'000;
 inline constexpr float kTricubicOvershoot = 0.48F;
 
 /// The same where voxels are bricks, whose search takes rounds, too. Ranges are asked for every 32
-/// grid intervals along the axis that a ray advances most on, each by at most 8 searches of at most
-/// 9 levels and a round more: 256 times 80 rounds for kMaxSkippedSide, beyond which none are asked
-/// for. Rays enter at most 3 times 256 bricks beside that.
+/// grid intervals along the axis that a ray advances most on, twice where the model foresees them,
+/// each by at most 8 searches of at most 8 levels and a round more: 2 times 128 times 72 rounds for
+/// kMaxSkippedSide, beyond which none are asked for. Rays enter at most 3 times 128 bricks beside.
 inline constexpr int kMaxBrickedRaySamples = 36'000;
-inline constexpr int kMaxSkippedSide = 8192;
+inline constexpr int kMaxSkippedSide = 4096;
 
 /// What the machine has to offer.
 struct Limits {

@@ -98,11 +98,13 @@ class Sender:
 
     def channel(self, name, voxels):
         """Part by part: a whole copy of a large array is never made."""
-        size, parts = voxels.dtype.itemsize, 1 << 24
-        self.head(CHANNEL, name, voxels.size * size)
-        for start in range(0, voxels.size, parts):
-            part = voxels[start:start + parts]
-            require_finite(f'channel "{name}"', part, start)
+        length = 1 << 24
+        starts = range(0, voxels.size, length)
+        for start in starts:  # All before the first is sent: a record that has begun must end.
+            require_finite(f'channel "{name}"', voxels[start:start + length], start)
+        self.head(CHANNEL, name, voxels.size * voxels.dtype.itemsize)
+        for start in starts:
+            part = voxels[start:start + length]
             self.write(memoryview(little(part, voxels.dtype.newbyteorder("<"))))
 
 
