@@ -168,6 +168,7 @@ Result<bool> Meter::drawNext(Run& run) {
     const auto frame =
         renderer_.render(run.view, scene, job.size,
                          {.rgba32f = compared ? std::span{run.rgba} : std::span<float>{},
+                          .complete = true,
                           .countsSteps = !compared && !timed});
     if (!frame) return frame.error();
     ++run.drawn;

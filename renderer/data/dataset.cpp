@@ -100,9 +100,13 @@ DatasetSummary summarizeVolume(const Volume& volume) {
     summary.voxels = volume.size;
     summary.spacing = volume.spacing;
     summary.voxelType = volume.type;
+    summary.coarserLevels = volume.coarserLevels();
     for (const Channel& channel : volume.channels) {
         summary.fields.push_back(summarizeChannel(channel, volume.type));
         summary.bytes += channel.voxels.size() + channel.bricks.bytes().size();
+        for (const ChannelLevel& level : channel.coarser) {
+            summary.bytes += level.voxels.size() + level.bricks.bytes().size();
+        }
     }
     return summary;
 }

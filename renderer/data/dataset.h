@@ -46,6 +46,7 @@ struct DatasetSummary {
     glm::ivec3 voxels{0};
     glm::dvec3 spacing{0.0};
     VoxelType voxelType = VoxelType::kF32;
+    int coarserLevels = 0;  ///< Of a volume's pyramid.
     std::vector<FieldSummary> fields;
     std::uint64_t bytes = 0;  ///< Size of the data as drawn.
 };

@@ -8,6 +8,7 @@
 
 #include "renderer/data/mesh_builder.h"
 #include "renderer/data/mesh_restrict.h"
+#include "renderer/data/pyramid.h"
 #include "renderer/data/text.h"
 #include "renderer/data/volume_builder.h"
 
@@ -201,26 +202,46 @@ Result<void> checkGrid(const Volume& volume) {
     return {};
 }
 
-Result<void> checkChannel(const Channel& channel, const Volume& volume) {
-    const auto product = [](const glm::ivec3& v) {
-        return static_cast<std::size_t>(v.x) * static_cast<std::size_t>(v.y) *
-               static_cast<std::size_t>(v.z);
-    };
-    const std::string where = "channel '" + channel.name + "': ";
-    if (channel.voxels.size() != product(volume.size) * voxelBytes(volume.type)) {
+std::size_t product(const glm::ivec3& v) {
+    return static_cast<std::size_t>(v.x) * static_cast<std::size_t>(v.y) *
+           static_cast<std::size_t>(v.z);
+}
+
+Result<void> checkLevel(const Channel& channel, const Volume& volume, int level,
+                        const base::Array<std::byte>& voxels, const base::Array<glm::vec2>& bricks,
+                        Trust trust) {
+    const std::string where = "channel '" + channel.name + "': " +
+                              (level > 0 ? "level " + std::to_string(level) + ": " : std::string{});
+    if (voxels.size() != product(volume.levelSize(level)) * voxelBytes(volume.type)) {
         return damaged(where + "wrong number of bytes");
     }
-    if (channel.bricks.size() != product(volume.brickGrid())) {
+    if (bricks.size() != product(volume.brickGrid(level))) {
         return damaged(where + "wrong number of bricks");
     }
-    if (!validRange(channel.range)) return damaged(where + "range is damaged");
-    for (const glm::vec2& brick : channel.bricks) {
+    for (const glm::vec2& brick : bricks) {
         if (!(brick.x >= channel.range.min && brick.x <= brick.y && brick.y <= channel.range.max)) {
             return damaged(where + "a brick is damaged");
         }
     }
-    if (!voxelsWithin(volume.type, channel.voxels.span(), channel.range)) {
+    if (trust == Trust::kNone && !voxelsWithin(volume.type, voxels.span(), channel.range)) {
         return damaged(where + "a voxel lies outside the channel's range");
+    }
+    return {};
+}
+
+Result<void> checkChannel(const Channel& channel, const Volume& volume, Trust trust) {
+    const std::string where = "channel '" + channel.name + "': ";
+    if (!validRange(channel.range)) return damaged(where + "range is damaged");
+    const int coarser = pyramidLevels(volume.size);
+    if (channel.coarser.size() != static_cast<std::size_t>(coarser)) {
+        return damaged(where + "wrong number of levels");
+    }
+    auto finest = checkLevel(channel, volume, 0, channel.voxels, channel.bricks, trust);
+    if (!finest) return finest;
+    for (int level = 1; level <= coarser; ++level) {
+        const ChannelLevel& one = channel.coarser[static_cast<std::size_t>(level) - 1];
+        auto checked = checkLevel(channel, volume, level, one.voxels, one.bricks, trust);
+        if (!checked) return checked;
     }
     return {};
 }
@@ -245,7 +266,7 @@ Result<void> check(const Mesh& mesh) {
     return {};
 }
 
-Result<void> check(const Volume& volume) {
+Result<void> check(const Volume& volume, Trust trust) {
     if (auto grid = checkGrid(volume); !grid) return grid;
     if (volume.channels.empty() || volume.channels.size() > kMaxChannels) {
         return damaged("wrong number of channels");
@@ -253,7 +274,7 @@ Result<void> check(const Volume& volume) {
     std::set<std::string> names;
     for (const Channel& channel : volume.channels) {
         if (auto name = checkName(channel.name, channel.unit, names); !name) return name;
-        if (auto checked = checkChannel(channel, volume); !checked) return checked;
+        if (auto checked = checkChannel(channel, volume, trust); !checked) return checked;
     }
     return {};
 }

@@ -6,63 +6,19 @@
 #include "renderer/base/memfd.h"
 #include "renderer/data/packed_checks.h"
 #include "renderer/data/packed_format.h"
+#include "renderer/data/packed_writer.h"
 
 namespace volcast::data {
 
 namespace {
 
-std::size_t aligned(std::size_t offset) {
-    return (offset + packed::kAlignment - 1) / packed::kAlignment * packed::kAlignment;
+Result<base::FileDescriptor> finish(packed::Writer& writer, packed::Kind kind) {
+    if (const auto opened = writer.open(kind); !opened) return opened.error();
+    return writer.seal();
 }
 
-/// Collects what is to be written; the bytes must outlive write().
-class Writer {
-public:
-    template <class T>
-    void add(packed::Tag tag, std::span<const T> values) {
-        entries_.push_back(
-            {.tag = tag, .elementBytes = sizeof(T), .offset = 0, .count = values.size()});
-        contents_.push_back(std::as_bytes(values));
-    }
-    template <class T>
-    void addOne(packed::Tag tag, const T& value) {
-        add(tag, std::span<const T>{&value, 1});
-    }
-    void addText(const std::string& text) {
-        add(packed::Tag::kText, std::span<const char>{text.data(), text.size()});
-    }
-
-    Result<base::FileDescriptor> write(packed::Kind kind) {
-        std::size_t end = sizeof(packed::Header) + entries_.size() * sizeof(packed::Entry);
-        for (std::size_t i = 0; i < entries_.size(); ++i) {
-            entries_[i].offset = aligned(end);
-            end = entries_[i].offset + contents_[i].size();
-        }
-        auto fd = base::createMemfd("volcast-dataset", end);
-        if (!fd) return fd.error();
-        auto mapping = base::map(*fd, true);
-        if (!mapping) return mapping.error();
-        const packed::Header header{.kind = kind, .sections = entries_.size(), .bytes = end};
-        std::memcpy(mapping->bytes.data(), &header, sizeof(header));
-        std::memcpy(mapping->bytes.data() + sizeof(header), entries_.data(),
-                    entries_.size() * sizeof(packed::Entry));
-        for (std::size_t i = 0; i < entries_.size(); ++i) {
-            if (contents_[i].empty()) continue;
-            std::memcpy(mapping->bytes.data() + entries_[i].offset, contents_[i].data(),
-                        contents_[i].size());
-        }
-        *mapping = {};  // A writable mapping would forbid the seal.
-        if (const auto sealed = base::sealReadOnly(*fd); !sealed) return sealed.error();
-        return fd;
-    }
-
-private:
-    std::vector<packed::Entry> entries_;
-    std::vector<std::span<const std::byte>> contents_;
-};
-
 Result<base::FileDescriptor> packMesh(const Mesh& mesh) {
-    Writer writer;
+    packed::Writer writer;
     const packed::MeshHeader header{.origin = mesh.origin,
                                     .cellsWithoutVolume = mesh.cellsWithoutVolume,
                                     .cellsInverted = mesh.cellsInverted,
@@ -89,17 +45,19 @@ Result<base::FileDescriptor> packMesh(const Mesh& mesh) {
         writer.add(packed::Tag::kTimes, std::span<const double>{field.times});
         for (const auto& step : field.steps) writer.add(packed::Tag::kValues, step.span());
     }
-    return writer.write(packed::Kind::kMesh);
+    return finish(writer, packed::Kind::kMesh);
 }
 
 Result<base::FileDescriptor> packVolume(const Volume& volume) {
-    Writer writer;
-    const packed::VolumeHeader header{.spacing = volume.spacing,
-                                      .origin = volume.origin,
-                                      .direction = volume.direction,
-                                      .size = volume.size,
-                                      .type = static_cast<std::uint32_t>(volume.type),
-                                      .channels = volume.channels.size()};
+    packed::Writer writer;
+    const packed::VolumeHeader header{
+        .spacing = volume.spacing,
+        .origin = volume.origin,
+        .direction = volume.direction,
+        .size = volume.size,
+        .type = static_cast<std::uint32_t>(volume.type),
+        .channels = volume.channels.size(),
+        .coarserLevels = static_cast<std::uint64_t>(volume.coarserLevels())};
     writer.addOne(packed::Tag::kVolume, header);
     for (const Channel& channel : volume.channels) {
         writer.addOne(packed::Tag::kChannel, channel.range);
@@ -107,8 +65,12 @@ Result<base::FileDescriptor> packVolume(const Volume& volume) {
         writer.addText(channel.unit);
         writer.add(packed::Tag::kVoxels, channel.voxels.span());
         writer.add(packed::Tag::kBricks, channel.bricks.span());
+        for (const ChannelLevel& level : channel.coarser) {
+            writer.add(packed::Tag::kVoxels, level.voxels.span());
+            writer.add(packed::Tag::kBricks, level.bricks.span());
+        }
     }
-    return writer.write(packed::Kind::kVolume);
+    return finish(writer, packed::Kind::kVolume);
 }
 
 Error damaged(const std::string& what) {
@@ -247,7 +209,7 @@ Result<Dataset> readMesh(Reader& reader) {
     return Dataset{std::move(mesh)};
 }
 
-Result<Dataset> readVolume(Reader& reader) {
+Result<Dataset> readVolume(Reader& reader, Trust trust) {
     const auto header = reader.takeOne<packed::VolumeHeader>(packed::Tag::kVolume);
     if (!header) return header.error();
     if (header->type > static_cast<std::uint32_t>(VoxelType::kF32)) {
@@ -269,9 +231,16 @@ Result<Dataset> readVolume(Reader& reader) {
             !store(reader.take<glm::vec2>(packed::Tag::kBricks), channel.bricks, error)) {
             return error;
         }
+        for (std::uint64_t level = 0; level < header->coarserLevels; ++level) {
+            ChannelLevel& coarser = channel.coarser.emplace_back();
+            if (!store(reader.take<std::byte>(packed::Tag::kVoxels), coarser.voxels, error) ||
+                !store(reader.take<glm::vec2>(packed::Tag::kBricks), coarser.bricks, error)) {
+                return error;
+            }
+        }
         volume.channels.push_back(std::move(channel));
     }
-    if (const auto checked = packed::check(volume); !checked) return checked.error();
+    if (const auto checked = packed::check(volume, trust); !checked) return checked.error();
     return Dataset{std::move(volume)};
 }
 
@@ -282,7 +251,7 @@ Result<base::FileDescriptor> pack(const Dataset& dataset) {
     return packVolume(std::get<Volume>(dataset));
 }
 
-Result<Dataset> unpack(const base::FileDescriptor& fd) {
+Result<Dataset> unpack(const base::FileDescriptor& fd, Trust trust) {
     if (!base::isSealedReadOnly(fd)) {
         return damaged("can still be written to, so checks of it mean nothing");
     }
@@ -294,7 +263,7 @@ Result<Dataset> unpack(const base::FileDescriptor& fd) {
     if (*kind != packed::Kind::kMesh && *kind != packed::Kind::kVolume) {
         return damaged("is neither a mesh nor a volume");
     }
-    auto dataset = *kind == packed::Kind::kMesh ? readMesh(reader) : readVolume(reader);
+    auto dataset = *kind == packed::Kind::kMesh ? readMesh(reader) : readVolume(reader, trust);
     if (!dataset) return dataset;
     if (const auto finished = reader.finish(); !finished) return finished.error();
     return dataset;

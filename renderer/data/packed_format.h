@@ -12,11 +12,13 @@
 ///
 /// Mesh: kMesh, kVertices, kCells, kNeighbours, kBoundaryFaces, kBoundaryNeighbours, then for each
 /// field kField, kText (name), kText (unit), kTimes, and one kValues a step.
-/// Volume: kVolume, then for each channel kChannel, kText, kText, kVoxels, kBricks.
+/// Volume: kVolume, then for each channel kChannel, kText, kText, and kVoxels and kBricks for each
+/// level of its pyramid, the finest first. Voxels lie in slices, x fastest: a brick is read by its
+/// rows, wherever they are, and nothing else of the file is touched.
 namespace volcast::data::packed {
 
 inline constexpr std::size_t kAlignment = 64;
-inline constexpr std::array<char, 8> kMagic{'V', 'C', 'S', 'T', 'D', 'A', 'T', '1'};
+inline constexpr std::array<char, 8> kMagic{'V', 'C', 'S', 'T', 'D', 'A', 'T', '2'};
 
 enum class Kind : std::uint64_t { kMesh = 1, kVolume = 2 };
 
@@ -75,6 +77,7 @@ struct VolumeHeader {
     glm::ivec3 size{1};
     std::uint32_t type = 0;
     std::uint64_t channels = 0;
+    std::uint64_t coarserLevels = 0;
 };
 
 }  // namespace volcast::data::packed

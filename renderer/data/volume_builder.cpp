@@ -8,6 +8,8 @@
 #include <optional>
 #include <set>
 
+#include "renderer/data/brick_ranges.h"
+#include "renderer/data/pyramid.h"
 #include "renderer/data/text.h"
 
 namespace volcast::data {
@@ -62,81 +64,19 @@ std::optional<glm::dmat3> orthonormal(const glm::dmat3& axes) {
     return glm::dmat3{x, y, glm::dot(z, axes[2]) < 0.0 ? -z : z};
 }
 
-/// Index and value of the first voxel that is not finite, or nothing.
-template <class T>
-std::optional<std::size_t> firstNotFinite(const T* voxels, std::size_t count) {
-    if constexpr (std::is_floating_point_v<T>) {
-        for (std::size_t i = 0; i < count; ++i) {
-            if (!std::isfinite(voxels[i])) return i;
-        }
-    }
-    return std::nullopt;
+std::size_t channelBytes(const glm::ivec3& size, VoxelType type) {
+    return static_cast<std::size_t>(size.x) * size.y * size.z * voxelBytes(type);
 }
 
-/// Smallest and largest value of each brick; see Volume::brickGrid.
-template <class T>
-std::vector<glm::vec2> findBricks(const T* voxels, const Volume& volume) {
-    const glm::ivec3 grid = volume.brickGrid();
-    const glm::ivec3 size = volume.size;
-    std::vector<glm::vec2> bricks;
-    bricks.reserve(static_cast<std::size_t>(grid.x) * grid.y * grid.z);
-    for (int bz = 0; bz < grid.z; ++bz) {
-        for (int by = 0; by < grid.y; ++by) {
-            for (int bx = 0; bx < grid.x; ++bx) {
-                const glm::ivec3 first = Volume::kBrickSize * glm::ivec3{bx, by, bz};
-                const glm::ivec3 last = glm::min(first + Volume::kBrickSize, size - 1);
-                glm::vec2 range{kEmptyRange.min, kEmptyRange.max};
-                for (int z = first.z; z <= last.z; ++z) {
-                    for (int y = first.y; y <= last.y; ++y) {
-                        const T* row = voxels + (static_cast<std::size_t>(z) * size.y + y) * size.x;
-                        const auto [low, high] =
-                            std::minmax_element(row + first.x, row + last.x + 1);
-                        range.x = std::min(range.x, static_cast<float>(*low));
-                        range.y = std::max(range.y, static_cast<float>(*high));
-                    }
-                }
-                bricks.push_back(range);
-            }
-        }
-    }
-    return bricks;
-}
-
-template <class T>
-Result<Channel> buildChannel(ChannelInput input, const Volume& volume) {
-    const std::size_t count = input.voxels.size() / sizeof(T);
-    // A vector<byte> is aligned for every scalar type.
-    const T* voxels = reinterpret_cast<const T*>(input.voxels.data());
-    if (const auto bad = firstNotFinite(voxels, count)) {
-        const std::size_t i = *bad;
-        const auto width = static_cast<std::size_t>(volume.size.x);
-        const auto height = static_cast<std::size_t>(volume.size.y);
-        return fail(ErrorCode::kInvalidArgument,
-                    "channel '" + input.name + "': voxel (" + std::to_string(i % width) + ", " +
-                        std::to_string(i / width % height) + ", " +
-                        std::to_string(i / width / height) + ") is " +
-                        std::to_string(static_cast<double>(voxels[i])) + ", not a finite number");
-    }
-    std::vector<glm::vec2> bricks = findBricks(voxels, volume);
-    Range range = kEmptyRange;
-    for (const glm::vec2& brick : bricks) {
-        range = {.min = std::min(range.min, brick.x), .max = std::max(range.max, brick.y)};
-    }
+Channel buildChannel(ChannelInput input, const Volume& volume) {
+    std::vector<glm::vec2> bricks = brickRanges(volume, 0, input.voxels);
+    const Range range = rangeOf(bricks);
     return Channel{.name = std::move(input.name),
                    .unit = std::move(input.unit),
                    .range = range,
                    .voxels = std::move(input.voxels),
-                   .bricks = std::move(bricks)};
-}
-
-Result<Channel> buildChannelOf(VoxelType type, ChannelInput input, const Volume& volume) {
-    switch (type) {
-        case VoxelType::kU8: return buildChannel<std::uint8_t>(std::move(input), volume);
-        case VoxelType::kU16: return buildChannel<std::uint16_t>(std::move(input), volume);
-        case VoxelType::kI16: return buildChannel<std::int16_t>(std::move(input), volume);
-        case VoxelType::kF32: return buildChannel<float>(std::move(input), volume);
-    }
-    return fail(ErrorCode::kInvalidArgument, "volume: unknown voxel type", "type");
+                   .bricks = std::move(bricks),
+                   .coarser = {}};
 }
 
 Result<void> checkChannels(VolumeInput& input) {
@@ -149,8 +89,7 @@ Result<void> checkChannels(VolumeInput& input) {
                         " channels, the limit is " + std::to_string(kMaxChannels),
                     "channels");
     }
-    const std::size_t expected = static_cast<std::size_t>(input.size.x) * input.size.y *
-                                 input.size.z * voxelBytes(input.type);
+    const std::size_t expected = channelBytes(input.size, input.type);
     if (expected > kMaxVolumeBytes) {
         return fail(ErrorCode::kLimitExceeded,
                     "volume: " + std::to_string(expected) + " bytes a channel, the limit is " +
@@ -166,20 +105,26 @@ Result<void> checkChannels(VolumeInput& input) {
                         "volume: channel name '" + channel.name + "' is empty or occurs twice",
                         "channels");
         }
-        if (channel.voxels.size() != expected) {
-            return fail(ErrorCode::kInvalidArgument,
-                        "channel '" + channel.name + "': " + std::to_string(channel.voxels.size()) +
-                            " bytes, expected " + std::to_string(expected) + " for " +
-                            describe(input.size) + " voxels",
-                        "channels");
-        }
+    }
+    return {};
+}
+
+Result<void> checkBytes(const VolumeInput& input) {
+    const std::size_t expected = channelBytes(input.size, input.type);
+    for (const ChannelInput& channel : input.channels) {
+        if (channel.voxels.size() == expected) continue;
+        return fail(ErrorCode::kInvalidArgument,
+                    "channel '" + channel.name + "': " + std::to_string(channel.voxels.size()) +
+                        " bytes, expected " + std::to_string(expected) + " for " +
+                        describe(input.size) + " voxels",
+                    "channels");
     }
     return {};
 }
 
 }  // namespace
 
-Result<Volume> buildVolume(VolumeInput input) {
+Result<Volume> buildGrid(VolumeInput& input) {
     if (const auto checked = checkGrid(input); !checked) return checked.error();
     if (const auto checked = checkChannels(input); !checked) return checked.error();
     const auto axes = orthonormal(input.direction);
@@ -188,16 +133,57 @@ Result<Volume> buildVolume(VolumeInput input) {
                     "volume: the direction matrix is not orthonormal (sheared or scaled axes)",
                     "direction");
     }
-    Volume volume{.size = input.size,
+    return Volume{.size = input.size,
                   .spacing = input.spacing,
                   .origin = input.origin,
                   .direction = *axes,
                   .type = input.type,
                   .channels = {}};
+}
+
+Result<void> checkFinite(const Volume& volume, const std::string& channel,
+                         std::span<const std::byte> bytes) {
+    if (volume.type != VoxelType::kF32) return {};
+    // Voxels are aligned: they start a vector or a section of a packed dataset.
+    const std::span voxels{reinterpret_cast<const float*>(bytes.data()),
+                           bytes.size() / sizeof(float)};
+    const auto bad = std::ranges::find_if(voxels, [](float v) { return !std::isfinite(v); });
+    if (bad == voxels.end()) return {};
+    const auto i = static_cast<std::size_t>(bad - voxels.begin());
+    const auto width = static_cast<std::size_t>(volume.size.x);
+    const auto height = static_cast<std::size_t>(volume.size.y);
+    return fail(ErrorCode::kInvalidArgument,
+                "channel '" + channel + "': voxel (" + std::to_string(i % width) + ", " +
+                    std::to_string(i / width % height) + ", " + std::to_string(i / width / height) +
+                    ") is " + std::to_string(static_cast<double>(*bad)) + ", not a finite number");
+}
+
+Range rangeOf(std::span<const glm::vec2> bricks) {
+    Range range = kEmptyRange;
+    for (const glm::vec2& brick : bricks) {
+        range = {.min = std::min(range.min, brick.x), .max = std::max(range.max, brick.y)};
+    }
+    return range;
+}
+
+Result<Volume> buildVolume(VolumeInput input, const std::function<void(double)>& pyramidProgress) {
+    auto volume = buildGrid(input);
+    if (!volume) return volume;
+    if (const auto checked = checkBytes(input); !checked) return checked.error();
     for (ChannelInput& channel : input.channels) {
-        auto built = buildChannelOf(input.type, std::move(channel), volume);
-        if (!built) return built.error();
-        volume.channels.push_back(std::move(*built));
+        if (auto finite = checkFinite(*volume, channel.name, channel.voxels); !finite) {
+            return finite.error();
+        }
+        volume->channels.push_back(buildChannel(std::move(channel), *volume));
+    }
+    if (pyramidLevels(volume->size) == 0) return volume;
+    const auto count = static_cast<double>(volume->channels.size());
+    double done = 0.0;
+    for (Channel& channel : volume->channels) {
+        channel.coarser = buildPyramid(*volume, channel, [&](double share) {
+            if (pyramidProgress) pyramidProgress((done + share) / count);
+        });
+        done += 1.0;
     }
     return volume;
 }

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -32,11 +34,25 @@ inline constexpr int kMaxVolumeSide = 1 << 15;
 inline constexpr std::size_t kMaxVolumeBytes = std::size_t{1} << 40;  ///< Of one channel.
 inline constexpr std::size_t kMaxChannels = 256;
 
-/// Checks voxels and finds their ranges and bricks.
+/// A volume without channels, of an input that needs no voxels yet; names become UTF-8 in it.
+///
+/// Errors: as buildVolume(), but for voxels.
+Result<Volume> buildGrid(VolumeInput& input);
+
+/// Errors: kInvalidArgument naming the first voxel that is not finite.
+Result<void> checkFinite(const Volume& volume, const std::string& channel,
+                         std::span<const std::byte> voxels);
+
+/// The range of a channel with these bricks, of which there is at least one.
+Range rangeOf(std::span<const glm::vec2> bricks);
+
+/// Checks voxels, finds their ranges and bricks, and builds the pyramid of a large volume;
+/// `pyramidProgress` (may be empty) is told the share of the last that is done.
 ///
 /// Errors: kInvalidArgument (a size below 1, spacing that is not > 0, a number that is not finite,
 /// a wrong number of bytes, no channel, a doubled or empty channel name), kUnsupported (axes that
 /// are not perpendicular), kLimitExceeded (size or channels).
-Result<Volume> buildVolume(VolumeInput input);
+Result<Volume> buildVolume(VolumeInput input,
+                           const std::function<void(double)>& pyramidProgress = {});
 
 }  // namespace volcast::data

@@ -6,19 +6,26 @@ namespace volcast::gpu {
 namespace {
 
 struct Layout {
-    GLenum internal;
-    GLenum external;
-    std::size_t bytes;
+    GLenum internal = GL_NONE;
+    GLenum external = GL_NONE;
+    GLenum type = GL_NONE;
+    std::size_t bytes = 0;
 };
 
 Layout layoutOf(VoxelFormat format) {
     switch (format) {
-        case VoxelFormat::kRg32F: return {.internal = GL_RG32F, .external = GL_RG, .bytes = 8};
-        case VoxelFormat::kRgba32F:
-            return {.internal = GL_RGBA32F, .external = GL_RGBA, .bytes = 16};
-        case VoxelFormat::kF32: break;
+        case VoxelFormat::kF32: return {GL_R32F, GL_RED, GL_FLOAT, 4};
+        case VoxelFormat::kRg32F: return {GL_RG32F, GL_RG, GL_FLOAT, 8};
+        case VoxelFormat::kRgba32F: return {GL_RGBA32F, GL_RGBA, GL_FLOAT, 16};
+        case VoxelFormat::kR8U: return {GL_R8UI, GL_RED_INTEGER, GL_UNSIGNED_BYTE, 1};
+        case VoxelFormat::kR16U: return {GL_R16UI, GL_RED_INTEGER, GL_UNSIGNED_SHORT, 2};
+        case VoxelFormat::kR32U: return {GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, 4};
     }
-    return {.internal = GL_R32F, .external = GL_RED, .bytes = 4};
+    return {};
+}
+
+std::string describe(const glm::ivec3& v) {
+    return std::to_string(v.x) + " x " + std::to_string(v.y) + " x " + std::to_string(v.z);
 }
 
 }  // namespace
@@ -55,18 +62,25 @@ Result<Texture3D> Texture3D::create(Device& device, const Texture3DDesc& desc) {
 }
 
 Result<void> Texture3D::upload(int firstSlice, int slices, std::span<const std::byte> voxels) {
+    return upload({0, 0, firstSlice}, {size_.x, size_.y, slices}, voxels);
+}
+
+Result<void> Texture3D::upload(glm::ivec3 first, glm::ivec3 size,
+                               std::span<const std::byte> voxels) {
     assert(device_ != nullptr && device_->onDeviceThread());
     const Layout layout = layoutOf(format_);
+    const glm::ivec3 filled = glm::max(size, glm::ivec3{0});
     const std::size_t expected =
-        static_cast<std::size_t>(size_.x) * size_.y * std::max(slices, 0) * layout.bytes;
-    if (firstSlice < 0 || firstSlice + slices > size_.z || voxels.size() != expected) {
+        static_cast<std::size_t>(filled.x) * filled.y * filled.z * layout.bytes;
+    if (glm::any(glm::lessThan(first, glm::ivec3{0})) ||
+        glm::any(glm::greaterThan(first + size, size_)) || voxels.size() != expected) {
         return fail(ErrorCode::kInvalidArgument,
-                    "slices " + std::to_string(firstSlice) + " + " + std::to_string(slices) +
-                        ": got " + std::to_string(voxels.size()) + " bytes of voxels, expected " +
+                    describe(size) + " voxels from " + describe(first) + " of " + describe(size_) +
+                        ": got " + std::to_string(voxels.size()) + " bytes, expected " +
                         std::to_string(expected));
     }
-    glTextureSubImage3D(handle_.name(), 0, 0, 0, firstSlice, size_.x, size_.y, slices,
-                        layout.external, GL_FLOAT, voxels.data());
+    glTextureSubImage3D(handle_.name(), 0, first.x, first.y, first.z, size.x, size.y, size.z,
+                        layout.external, layout.type, voxels.data());
     ++device_->counters().textureUploads;
     device_->counters().uploadedBytes += voxels.size();
     return device_->check("voxels");

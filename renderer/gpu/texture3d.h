@@ -10,7 +10,8 @@
 
 namespace volcast::gpu {
 
-enum class VoxelFormat { kF32, kRg32F, kRgba32F };
+/// kR8U to kR32U: read as they are, by usampler3D and texelFetch().
+enum class VoxelFormat { kF32, kRg32F, kRgba32F, kR8U, kR16U, kR32U };
 
 struct Texture3DDesc {
     glm::ivec3 size{1};  ///< Voxels along x, y, z; each in [1, DeviceLimits::texture3DSide].
@@ -19,7 +20,7 @@ struct Texture3DDesc {
     const char* label = "";  ///< Shown by GL debuggers and in error messages.
 };
 
-/// A grid of floats in GPU memory, clamped at its faces.
+/// A grid of numbers in GPU memory, clamped at its faces.
 class Texture3D {
 public:
     /// Allocates; the content is undefined until upload().
@@ -34,6 +35,8 @@ public:
     ///
     /// Errors: kInvalidArgument (size disagrees), kOutOfGpuMemory.
     Result<void> upload(int firstSlice, int slices, std::span<const std::byte> voxels);
+    /// Fills the box of `size` from `first` on; likewise.
+    Result<void> upload(glm::ivec3 first, glm::ivec3 size, std::span<const std::byte> voxels);
 
     void bind(unsigned unit) const noexcept { glBindTextureUnit(unit, handle_.name()); }
     [[nodiscard]] glm::ivec3 size() const noexcept { return size_; }

@@ -33,9 +33,6 @@ bool absorbs(RayModel model) {
     return model == RayModel::kVolume || model == RayModel::kXray;
 }
 
-namespace {
-
-/// Smallest and largest extinction that the map gives to values in `range`.
 data::Range extinctionOver(const data::TransferFunction& map, data::Range range) {
     const float first = data::evaluate(map, range.min).a;
     data::Range found{.min = first, .max = first};
@@ -49,6 +46,8 @@ data::Range extinctionOver(const data::TransferFunction& map, data::Range range)
     }
     return found;
 }
+
+namespace {
 
 /// Smallest and largest extinction on any ray.
 data::Range extinctionOf(const Matter& matter) {

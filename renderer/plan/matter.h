@@ -29,6 +29,9 @@ bool varies(const data::FieldSummary* field);
 /// Whether the map's extinction has a meaning.
 bool absorbs(scene::RayModel model);
 
+/// Smallest and largest extinction that the map gives to values in `range`.
+data::Range extinctionOver(const data::TransferFunction& map, data::Range range);
+
 /// Four digits, for reasons.
 std::string number(double value);
 
@@ -45,6 +48,8 @@ void planMeshRays(LayerPlan& plan, const Matter& matter, const scene::Accuracy& 
 void planSurface(LayerPlan& plan, const Matter& matter);
 /// Rays through voxels.
 void planVoxels(LayerPlan& plan, const Matter& matter);
+/// Whether voxels are on the GPU as a whole or as bricks; after the two around this one.
+void planResidency(LayerPlan& plan, const Matter& matter, const Limits& limits);
 /// Planes through voxels.
 void planCrossSections(LayerPlan& plan, const Matter& matter);
 

@@ -97,7 +97,7 @@ void planCamera(LayerPlan& plan, const Matter& matter, const scene::Camera& came
 }
 
 LayerPlan planLayer(const scene::Scene& scene, const Layer& layer, const DatasetSummary& summary,
-                    bool hasSurfaces, std::span<const Evidence> evidence) {
+                    bool hasSurfaces, std::span<const Evidence> evidence, const Limits& limits) {
     const Matter matter = matterOf(layer, summary);
     LayerPlan plan;
     plan.layer = layer.id;
@@ -106,6 +106,7 @@ LayerPlan planLayer(const scene::Scene& scene, const Layer& layer, const Dataset
     const scene::RayModelRow& row = scene::row(layer.model);
     if (layer.model == RayModel::kCrossSections) {
         planCrossSections(plan, matter);
+        planResidency(plan, matter, limits);
         planCamera(plan, matter, scene.camera);
         return plan;
     }
@@ -117,6 +118,7 @@ LayerPlan planLayer(const scene::Scene& scene, const Layer& layer, const Dataset
         planMeshRays(plan, matter, scene.accuracy, evidence);
     } else {
         planVoxels(plan, matter);
+        planResidency(plan, matter, limits);
     }
     planCamera(plan, matter, scene.camera);
     if (row.opaque) {
@@ -173,16 +175,16 @@ bool LayerPlan::has(const std::string& name) const {
 }
 
 FramePlan plan(const scene::Scene& scene, const scene::Summaries& summaries,
-               const SceneEvidence& evidence) {
+               const SceneEvidence& evidence, const Limits& limits) {
     const bool hasSurfaces = std::ranges::any_of(scene.layers, [](const Layer& layer) {
         return layer.visible && scene::row(layer.model).opaque;
     });
     FramePlan frame;
     for (const Layer& layer : scene.layers) {
         const auto known = evidence.find(layer.id);
-        frame.layers.push_back(
-            planLayer(scene, layer, summaries.at(layer.dataset), hasSurfaces,
-                      known == evidence.end() ? std::span<const Evidence>{} : known->second));
+        frame.layers.push_back(planLayer(
+            scene, layer, summaries.at(layer.dataset), hasSurfaces,
+            known == evidence.end() ? std::span<const Evidence>{} : known->second, limits));
     }
     shareWalks(scene, frame);
     frame.id = idOf(frame.layers);

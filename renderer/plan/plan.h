@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -59,9 +60,23 @@ inline constexpr int kMaxRaySamples = 60'000;
 /// derived in shaders/volume/march_ray.glsl.
 inline constexpr float kTricubicOvershoot = 0.48F;
 
+/// The same where voxels are bricks, whose search takes rounds, too. Ranges are asked for every 32
+/// grid intervals along the axis that a ray advances most on, twice where the model foresees them,
+/// each by at most 8 searches of at most 8 levels and a round more: 2 times 128 times 72 rounds for
+/// kMaxSkippedSide, beyond which none are asked for. Rays enter at most 3 times 128 bricks beside.
+inline constexpr int kMaxBrickedRaySamples = 36'000;
+inline constexpr int kMaxSkippedSide = 4096;
+
+/// What the machine has to offer.
+struct Limits {
+    /// Of GPU memory: a channel that takes more is drawn from bricks.
+    std::uint64_t volumeBytes = std::uint64_t{1} << 30;
+    std::uint64_t pictureBytes = std::uint64_t{16} << 20;  ///< Of bricks that one picture loads.
+};
+
 /// `scene` must be valid against `summaries`. `evidence` decides where the scene bounds error or
 /// time.
 FramePlan plan(const scene::Scene& scene, const scene::Summaries& summaries,
-               const SceneEvidence& evidence = {});
+               const SceneEvidence& evidence = {}, const Limits& limits = {});
 
 }  // namespace volcast::plan

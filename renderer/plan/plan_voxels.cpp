@@ -101,6 +101,7 @@ void planLight(LayerPlan& plan, const Layer& volume) {
 
 /// A user's code in the place of the map.
 void planUserShader(LayerPlan& plan, const Matter& matter) {
+    plan.evaluator = Evaluator::kVolumeMarch;
     plan.integrator = "user shader";
     plan.method = scene::Integrator::kAverage;
     add(plan, kUserShader, true, "the layer's code says what a sample shows; its map is not used");

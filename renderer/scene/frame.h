@@ -25,6 +25,7 @@ struct LayerDraw {
     const mesh::FieldGpu* density = nullptr;
     const volume::ChannelGpu* channel = nullptr;
     const volume::ChannelsGpu* channels = nullptr;  // Instead, where several are drawn together.
+    const volume::BrickPool* pool = nullptr;        // Instead, of voxels in bricks.
     std::vector<const volume::RawChannel*> rawChannels;  // That its code reads, its own first.
     std::optional<UserCode> code;
     std::vector<float> levels;  // Of an isosurface.

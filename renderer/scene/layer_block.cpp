@@ -70,17 +70,21 @@ glm::vec4 gather(const Layer& layer, const data::DatasetSummary& summary) {
 
 /// Where the planes meet, in grid coordinates, and which of them are shown.
 glm::vec4 sections(const CrossSections& planes, const data::Volume& volume) {
+    const int shown =
+        (planes.shown.x ? 1 : 0) + (planes.shown.y ? 2 : 0) + (planes.shown.z ? 4 : 0);
+    return vector(meetingPoint(planes, volume), shown);
+}
+
+}  // namespace
+
+glm::dvec3 meetingPoint(const CrossSections& planes, const data::Volume& volume) {
     const glm::dvec3 last(volume.size - 1);
     const glm::dvec3 meet =
         planes.point
             ? (glm::transpose(volume.direction) * (*planes.point - volume.origin)) / volume.spacing
             : 0.5 * last;
-    const int shown =
-        (planes.shown.x ? 1 : 0) + (planes.shown.y ? 2 : 0) + (planes.shown.z ? 4 : 0);
-    return vector(glm::clamp(meet, glm::dvec3(0.0), last), shown);
+    return glm::clamp(meet, glm::dvec3(0.0), last);
 }
-
-}  // namespace
 
 DepthRange depthRange(const Camera& camera, std::span<const data::Box> boxes) {
     const CameraFrame axes = frame(camera);

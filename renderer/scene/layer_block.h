@@ -23,6 +23,9 @@ struct DepthRange {
 /// Of the boxes in front of the eye's plane; {0, 1} where there are none.
 DepthRange depthRange(const Camera& camera, std::span<const data::Box> boxes);
 
+/// Where cross-sections meet, in grid coordinates: within the grid.
+glm::dvec3 meetingPoint(const CrossSections& planes, const data::Volume& volume);
+
 /// The block of one layer; see shaders/shared/layer_block.glsl. Computed in double relative to the
 /// dataset's own origin, so that neither is rounded far away from the world's origin.
 LayerBlock layerBlock(PictureSize size, const DepthRange& depths, const Scene& scene,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "renderer/gpu/buffer.h"
+#include "renderer/scene/brick_pools.h"
 #include "renderer/scene/frame.h"
 #include "renderer/shading/program_cache.h"
 
@@ -14,11 +15,12 @@ struct DrawContext {
     gpu::Buffer psiTable;           ///< Made when first asked for.
     UserCodes codes;
     std::uint64_t frame = 0;
+    BrickPools bricks{plan::Limits{}};
 };
 
 // Bring to the GPU what a draw needs of its data and it does not have.
 Result<void> prepareMesh(DrawContext& context, LayerDraw& draw);
-Result<void> prepareVoxels(DrawContext& context, LayerDraw& draw);
+Result<void> prepareVoxels(DrawContext& context, const Frame& frame, LayerDraw& draw);
 
 // The layer block, the map and the opaque distances are bound by the caller.
 Result<void> drawMesh(const DrawContext& context, const Frame& frame, const LayerDraw& draw,

@@ -44,10 +44,12 @@ Result<void> checkTarget(PictureSize size, const FrameTarget& target) {
 
 class DeviceRenderer final : public Renderer {
 public:
-    DeviceRenderer(gpu::Device& device, const shading::ChunkSource& chunks)
-        : device_{device}, programs_{device, chunks} {
+    DeviceRenderer(gpu::Device& device, const shading::ChunkSource& chunks,
+                   const plan::Limits& limits)
+        : device_{device}, programs_{device, chunks}, limits_{limits} {
         context_.device = &device_;
         context_.programs = &programs_;
+        context_.bricks = BrickPools{limits};
     }
 
     Result<void> open() {
@@ -66,7 +68,10 @@ public:
         const auto found = datasets_.find(id);
         return found == datasets_.end() ? nullptr : &found->second->data();
     }
-    void dropView(std::uint64_t view) override { views_.erase(view); }
+    void dropView(std::uint64_t view) override {
+        views_.erase(view);
+        context_.bricks.dropView(view);
+    }
     [[nodiscard]] const Counters& counters() const noexcept override { return counters_; }
 
     Result<FrameInfo> render(std::uint64_t view, const Scene& scene, PictureSize size,
@@ -89,6 +94,7 @@ private:
 
     gpu::Device& device_;
     shading::ProgramCache programs_;
+    plan::Limits limits_;
     DrawContext context_;
     std::map<std::string, std::unique_ptr<CachedDataset>> datasets_;
     std::map<std::uint64_t, View> views_;
@@ -121,7 +127,7 @@ Result<FrameInfo> DeviceRenderer::render(std::uint64_t view, const Scene& scene,
     const Result<Summaries> summaries = validated(scene, size, target);
     if (!summaries) return summaries.error();
     FrameInfo info;
-    info.plan = plan::plan(scene, *summaries, evidence);
+    info.plan = plan::plan(scene, *summaries, evidence, limits_);
     Frame frame;
     frame.view = &views_[view];
     frame.scene = &scene;
@@ -143,6 +149,9 @@ Result<FrameInfo> DeviceRenderer::render(std::uint64_t view, const Scene& scene,
     }
     if (const Result<void> coded = takeCodes(frame); !coded) return coded.error();
     const Work work = workFor(frame);
+    const auto bricked = std::ranges::count_if(
+        frame.draws, [](const LayerDraw& draw) { return draw.plan->has(plan::kBricks); });
+    context_.bricks.begin(view, context_.frame, static_cast<std::size_t>(bricked), target.complete);
     const Result<void> made = make(frame, work, info);
     countWork();
     if (!made) return made.error();
@@ -153,9 +162,12 @@ Result<FrameInfo> DeviceRenderer::render(std::uint64_t view, const Scene& scene,
     if (!readMs) return readMs.error();
     info.readbackMs = *readMs;
     info.drawn = work != Work::kNothing;
+    info.bricks = bricksOf(frame);
+    info.ready = frame.view->ready;
     info.orders = ordersOf(frame);
     if (frame.countsSteps) info.steps = stepsOf(frame);
     for (const LayerOrder& order : info.orders) tellOrder(order, info.plan);
+    for (const LayerBricks& bricks : info.bricks) tellBricks(bricks, info.plan);
     if (info.drawn) ++counters_.framesDrawn;
     info.work = counters_ - before;
     return info;
@@ -176,7 +188,7 @@ Result<void> DeviceRenderer::takeCodes(Frame& frame) {
 
 Work DeviceRenderer::workFor(const Frame& frame) const {
     const View& view = *frame.view;
-    if (frame.countsSteps || view.stale || view.picture == nullptr ||
+    if (frame.countsSteps || view.stale || !view.ready || view.picture == nullptr ||
         view.picture->size != frame.size) {
         return Work::kAll;
     }
@@ -224,6 +236,9 @@ Result<void> DeviceRenderer::make(Frame& frame, Work work, FrameInfo& info) {
     view.scene = *frame.scene;
     view.generations = std::move(frame.generations);
     view.stale = false;
+    view.ready = std::ranges::all_of(
+        bricksOf(frame), [](const LayerBricks& bricks) { return bricks.report.ready(); });
+    context_.bricks.end(view.ready);
     std::erase_if(view.layers, [&](const auto& entry) {
         return std::ranges::none_of(frame.scene->layers,
                                     [&](const Layer& layer) { return layer.id == entry.first; });
@@ -273,7 +288,7 @@ Result<void> DeviceRenderer::prepareLayer(Frame& frame, LayerDraw& draw) {
         draw.constants.insert(draw.constants.end(), constants.begin(), constants.end());
     }
     return draw.dataset->summary().isMesh ? prepareMesh(context_, draw)
-                                          : prepareVoxels(context_, draw);
+                                          : prepareVoxels(context_, frame, draw);
 }
 
 Result<void> DeviceRenderer::sendBlocks(Frame& frame) {
@@ -351,8 +366,9 @@ void DeviceRenderer::countWork() {
 }  // namespace
 
 Result<std::unique_ptr<Renderer>> Renderer::create(gpu::Device& device,
-                                                   const shading::ChunkSource& chunks) {
-    auto renderer = std::make_unique<DeviceRenderer>(device, chunks);
+                                                   const shading::ChunkSource& chunks,
+                                                   const plan::Limits& limits) {
+    auto renderer = std::make_unique<DeviceRenderer>(device, chunks, limits);
     const Result<void> opened = renderer->open();
     if (!opened) return opened.error();
     return std::unique_ptr<Renderer>{std::move(renderer)};

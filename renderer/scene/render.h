@@ -14,6 +14,7 @@
 #include "renderer/plan/plan.h"
 #include "renderer/scene/scene.h"
 #include "renderer/shading/assemble.h"
+#include "renderer/volume/bricked_layer.h"
 
 namespace volcast::scene {
 
@@ -40,11 +41,20 @@ struct LayerSteps {
     std::uint64_t cellsDrawn = 0;  ///< By the projection.
 };
 
+/// From which bricks of a pyramid a layer was drawn.
+struct LayerBricks {
+    std::string layer;
+    volume::BrickReport report;
+};
+
 /// What one call of render() made and took.
 struct FrameInfo {
     plan::FramePlan plan;
-    std::vector<LayerOrder> orders;  ///< Of the layers whose cells must come front to back.
-    std::vector<LayerSteps> steps;   ///< Where FrameTarget::countsSteps.
+    std::vector<LayerOrder> orders;   ///< Of the layers whose cells must come front to back.
+    std::vector<LayerSteps> steps;    ///< Where FrameTarget::countsSteps.
+    std::vector<LayerBricks> bricks;  ///< Of the layers that are drawn from bricks.
+    /// False: bricks are missing, coarser ones stand in; the same call again loads more of them.
+    bool ready = true;
     double uploadMs = 0.0;
     double drawMs = 0.0;  ///< Until the GPU was done.
     double readbackMs = 0.0;
@@ -58,6 +68,7 @@ struct FrameTarget {
     std::span<std::byte> rgba8 = {};
     /// 4 floats a pixel: linear, premultiplied, without background.
     std::span<float> rgba32f = {};
+    bool complete = false;     ///< Loads all bricks that are needed, however long that takes.
     bool countsSteps = false;  ///< Draws anew, slower, and tells what every layer took.
 };
 
@@ -68,7 +79,8 @@ class Renderer {
 public:
     /// Errors: kShaderBuild, kOutOfGpuMemory, kDeviceLost.
     static Result<std::unique_ptr<Renderer>> create(gpu::Device& device,
-                                                    const shading::ChunkSource& chunks);
+                                                    const shading::ChunkSource& chunks,
+                                                    const plan::Limits& limits = {});
     virtual ~Renderer() = default;
     Renderer(const Renderer&) = delete;
     Renderer& operator=(const Renderer&) = delete;

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "renderer/mesh/projection.h"
@@ -12,6 +13,7 @@
 #include "renderer/scene/picture.h"
 #include "renderer/scene/user_table.h"
 #include "renderer/scene/view_blocks.h"
+#include "renderer/volume/bricked_layer.h"
 #include "renderer/volume/slices.h"
 
 namespace volcast::scene {
@@ -26,6 +28,8 @@ struct LayerState {
     std::unique_ptr<mesh::ProjectionState> projection = mesh::ProjectionState::create();
     bool projected = false;        ///< `projection` is in use, `walk` is empty.
     std::uint64_t generation = 0;  ///< Of the dataset that both belong to.
+    volume::BrickedLayer bricks;
+    std::optional<volume::BrickReport> brickReport;  ///< Where it was last drawn from bricks.
 };
 
 /// All that decides where a picture's rays run.
@@ -45,6 +49,7 @@ struct View {
     ViewBlocks blocks;
     Rays rays;
     std::uint64_t cameraVersion = 0;  ///< Grows whenever `rays` changes.
+    bool ready = true;                ///< Its picture shows all bricks that it needs.
     bool stale = true;  ///< The 32F layers are not those of `scene`; the resolved picture is.
 };
 

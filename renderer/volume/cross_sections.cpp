@@ -1,3 +1,4 @@
+#include "renderer/volume/field.h"
 #include "renderer/volume/march.h"
 
 namespace volcast::volume {
@@ -15,7 +16,7 @@ Result<void> drawCrossSections(const DrawInputs& inputs) {
     if (!program) return program.error();
     inputs.target->begin({.depth = gpu::DepthTest::kNearest});
     (*program)->use();
-    inputs.channel->bind();
+    bindField(inputs);
     inputs.device->draw(gpu::Primitive::kTriangles, 3);
     return {};
 }

@@ -6,7 +6,7 @@
 #include "renderer/plan/effects.h"
 #include "renderer/scene/ray_models.h"
 #include "renderer/shading/shared.h"
-#include "renderer/volume/block_ranges.h"
+#include "renderer/volume/field.h"
 
 namespace volcast::volume {
 
@@ -14,14 +14,15 @@ MarchTraits traitsOf(const DrawInputs& inputs) {
     return {.model = inputs.layer->model,
             .integrator = inputs.plan->method,
             .sampling = inputs.layer->sampling,
-            .texels = inputs.channel->texels(),
+            .texels = texelsOf(inputs),
             .filterInHardware = inputs.filterInHardware,
             .skipsBricks = inputs.plan->has(plan::kEmptyBricks),
             .earlyStop = inputs.plan->has(plan::kEarlyStop),
             .lit = inputs.plan->has(plan::kGradient),
             .shaded = inputs.plan->has(plan::kLight),
             .interval = inputs.plan->has(plan::kInterval),
-            .clipPlanes = inputs.clipPlanes};
+            .clipPlanes = inputs.clipPlanes,
+            .field = fieldTraits(inputs)};
 }
 
 shading::Recipe marchRecipe(const MarchTraits& traits, std::vector<shading::Constant> constants) {
@@ -42,16 +43,17 @@ shading::Recipe marchRecipe(const MarchTraits& traits, std::vector<shading::Cons
                                        {"kClipPlanes", traits.clipPlanes},
                                        {"kClipsAtStart", true},
                                        {"kTricubicOvershoot", plan::kTricubicOvershoot},
-                                       {"kRangeBlock", kRangeBlock},
-                                       {"kRangeReach", kRangeReach},
                                        {"kMaxRaySamples", plan::kMaxRaySamples}});
     std::string segment{integrator == nullptr ? "" : integrator->chunk};
     if (traits.shaded) segment = "segment/average_lit.glsl";
-    return {.evaluator = row.opaque ? "volume/march_opaque.glsl" : "volume/march.glsl",
-            .classify = "classify/transfer_function.glsl",
-            .segment = std::move(segment),
-            .model = std::string{row.chunk},
-            .constants = std::move(constants)};
+    shading::Recipe recipe{
+        .evaluator = row.opaque ? "volume/march_opaque.glsl" : "volume/march.glsl",
+        .classify = "classify/transfer_function.glsl",
+        .segment = std::move(segment),
+        .model = std::string{row.chunk},
+        .constants = std::move(constants)};
+    addField(recipe, traits.field);
+    return recipe;
 }
 
 Result<void> drawMarch(const DrawInputs& inputs) {
@@ -62,7 +64,7 @@ Result<void> drawMarch(const DrawInputs& inputs) {
     inputs.target->begin(opaque ? gpu::PassState{.depth = gpu::DepthTest::kNearest}
                                 : gpu::PassState{.blend = gpu::Blend::kOver});
     (*program)->use();
-    inputs.channel->bind();
+    bindField(inputs);
     inputs.device->draw(gpu::Primitive::kTriangles, 3);
     return {};
 }

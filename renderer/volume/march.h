@@ -10,6 +10,8 @@
 #include "renderer/gpu/texture3d.h"
 #include "renderer/plan/plan.h"
 #include "renderer/shading/program_cache.h"
+#include "renderer/volume/bricked_layer.h"
+#include "renderer/volume/field.h"
 #include "renderer/volume/raw_channel.h"
 #include "renderer/volume/voxel_blocks.h"
 
@@ -41,7 +43,10 @@ Result<bool> filtersExactly(gpu::Device& device, shading::ProgramCache& programs
 struct DrawInputs {
     gpu::Device* device = nullptr;
     shading::ProgramCache* programs = nullptr;
-    const ChannelGpu* channel = nullptr;
+    const ChannelGpu* channel = nullptr;   ///< Or these three, where the plan says so:
+    const BrickedLayer* bricks = nullptr;  ///< prepare()d for this picture.
+    const BrickPool* pool = nullptr;
+    const data::Volume* volume = nullptr;
     const scene::Layer* layer = nullptr;
     const plan::LayerPlan* plan = nullptr;
     int clipPlanes = 0;
@@ -73,6 +78,7 @@ struct MarchTraits {
     bool shaded = false;  ///< Volumes, at their samples.
     bool interval = false;
     int clipPlanes = 0;
+    FieldTraits field = {};
 };
 
 /// What a draw needs besides where a user's code says what samples show.

@@ -114,7 +114,8 @@ Result<void> Loop::addDataset(const std::string& id, const Descriptors& descript
     if (descriptors.size() != 1) return oneDescriptorExpected("a dataset", descriptors.size());
     const auto start = Clock::now();
     wire::FromWorker answer;
-    if (auto dataset = data::unpack(descriptors.front()); dataset) {
+    // The server has accepted the very bytes, which are sealed.
+    if (auto dataset = data::unpack(descriptors.front(), data::Trust::kVoxelsChecked); dataset) {
         meter_.forget(id);
         evidence_.forget(id);
         picker_.forget(id);
@@ -176,6 +177,7 @@ Result<wire::Rendered> Loop::draw(const wire::Render& request, const Descriptors
     rendered.set_cpu_ms(cpuMs() - cpuBefore);
     rendered.set_peak_mb(peakMb());
     rendered.set_drawn(info->drawn);
+    rendered.set_ready(info->ready);
     put(info->work, rendered.mutable_work());
     return rendered;
 }

@@ -69,7 +69,8 @@ int serve(const worker::Options& options, Clock::time_point start) {
     const shading::ChunkSource chunks = options.shaderFolder.empty()
                                             ? shading::embeddedChunks()
                                             : shading::chunksFrom(options.shaderFolder);
-    auto renderer = scene::Renderer::create(**device, chunks);
+    auto renderer =
+        scene::Renderer::create(**device, chunks, {.volumeBytes = options.volumeBudgetBytes});
     if (!renderer) return refuse(channel, renderer.error(), worker::kExitNoDevice);
     internal::v1::FromWorker ready;
     const gpu::DeviceInfo& info = (*device)->info();

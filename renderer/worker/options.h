@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <string>
 
@@ -12,7 +13,8 @@ struct Options {
     std::string gpu;           ///< As gpu::DeviceDesc.
     std::string cacheFolder;   ///< The driver's shader cache: the one folder it may write to.
     std::string shaderFolder;  ///< Chunks are read from here; empty: the embedded ones.
-    bool probe = false;        ///< Print what EGL and GL offer as JSON and end.
+    std::uint64_t volumeBudgetBytes = std::uint64_t{1} << 30;  ///< As plan::Limits.
+    bool probe = false;  ///< Print what EGL and GL offer as JSON and end.
 };
 
 /// Errors: kInvalidArgument naming the argument.

@@ -1,5 +1,6 @@
 #include "server/commands/offline_renderer.h"
 
+#include <chrono>
 #include <condition_variable>
 #include <mutex>
 #include <optional>
@@ -57,9 +58,20 @@ Result<OfflineRenderer> OfflineRenderer::create(const workers::RenderSettings& s
     return renderer;
 }
 
-Result<workers::RenderedFrame> OfflineRenderer::draw(workers::RenderRequest request) {
-    service_->submit(std::move(request));
-    return outcome_->frame.take();
+Result<workers::RenderedFrame> OfflineRenderer::draw(const workers::RenderRequest& request) {
+    using Clock = std::chrono::steady_clock;
+    const auto start = Clock::now();
+    effort_ = {};
+    for (;;) {
+        service_->submit(request);
+        auto frame = outcome_->frame.take();
+        if (!frame) return frame;
+        effort_.ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+        if (effort_.pictures == 0) effort_.firstMs = effort_.ms;
+        ++effort_.pictures;
+        effort_.uploadedBytes += frame->work.uploadedBytes;
+        if (frame->ready) return frame;
+    }
 }
 
 Result<accuracy::Measurement> OfflineRenderer::measure(accuracy::Job job) {

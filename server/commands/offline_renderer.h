@@ -13,8 +13,18 @@ public:
     static Result<OfflineRenderer> create(const workers::RenderSettings& settings);
 
     [[nodiscard]] workers::RenderService& service() const { return *service_; }
+    /// The picture that is ready; what comes before it is drawn and forgotten.
+    ///
     /// Errors: as the worker says, or kDeviceLost.
-    Result<workers::RenderedFrame> draw(workers::RenderRequest request);
+    Result<workers::RenderedFrame> draw(const workers::RenderRequest& request);
+    /// What the last draw() took.
+    struct Effort {
+        int pictures = 0;
+        std::uint64_t uploadedBytes = 0;
+        double firstMs = 0.0;  ///< Until the first picture.
+        double ms = 0.0;
+    };
+    [[nodiscard]] const Effort& effort() const noexcept { return effort_; }
     /// Errors: as accuracy::Meter::measure, or kDeviceLost.
     Result<accuracy::Measurement> measure(accuracy::Job job);
 
@@ -23,6 +33,7 @@ private:
 
     OfflineRenderer() = default;
 
+    Effort effort_;
     std::shared_ptr<Outcome> outcome_;
     std::unique_ptr<workers::RenderService> service_;
 };

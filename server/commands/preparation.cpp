@@ -30,6 +30,7 @@ workers::RenderSettings settingsFor(const SceneOptions& options) {
         static_cast<std::int64_t>(std::max(1.0, options.timeoutSeconds * 1e3))};
     settings.measureDeadline = settings.frameDeadline;
     settings.warmSpare = false;
+    settings.volumeBudgetBytes = options.volumeBudgetMib << 20U;
     return settings;
 }
 

@@ -57,7 +57,7 @@ Result<Times> measure(OfflineRenderer& renderer, const workers::RenderRequest& f
             for (float& level : layer.levels.values)
                 level += static_cast<float>(k) * options.levelStep;
         }
-        const auto frame = renderer.draw(std::move(request));
+        const auto frame = renderer.draw(request);
         if (!frame) return frame.error();
         times.draw.push_back(frame->uploadMs + frame->drawMs);
         times.readback.push_back(frame->readbackMs);
@@ -149,8 +149,15 @@ Result<void> draw(const RenderOptions& options) {
     request.wantFloat = !options.raw.empty();
     const auto first = renderer->draw(request);
     if (!first) return first.error();
+    const OfflineRenderer::Effort effort = renderer->effort();
     if (auto saved = save(*first->picture, options); !saved) return saved;
     if (options.explain) explain(first->plan);
+    if (options.explain && effort.pictures > 1) {
+        std::printf(
+            "ready after %d pictures and %.0f ms, the first after %.0f ms; %.1f MiB uploaded\n",
+            effort.pictures, effort.ms, effort.firstMs,
+            static_cast<double>(effort.uploadedBytes) / (1 << 20));
+    }
     if (options.frames == 0) return {};
     const auto times = measure(*renderer, request, options, progress);
     if (!times) return times.error();

@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 
 #include "renderer/scene/ray_models.h"
+#include "server/workers/render_service.h"
 
 namespace volcast::commands {
 
@@ -234,6 +235,11 @@ void addHow(Group group, SceneOptions& o) {
     group.add("--cache-dir", o.cacheFolder,
               "Folder for the driver's compiled shaders and for measured costs");
     group.add("--shader-dir", o.shaderFolder, "Read shader chunks from here");
+    group
+        .add("--volume-budget", o.volumeBudgetMib,
+             "MiB of GPU memory: a channel of voxels that takes more is drawn from bricks")
+        ->check(CLI::Range(workers::kLeastVolumeBudgetMib, workers::kMostVolumeBudgetMib))
+        ->capture_default_str();
     group.add("--timeout", o.timeoutSeconds, "Seconds that one frame may take")
         ->check(CLI::Range(0.001, 86'400.0))
         ->capture_default_str();

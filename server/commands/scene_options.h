@@ -61,6 +61,7 @@ struct SceneOptions {
     std::vector<int> size{512, 512};
     // how
     std::string gpu, cacheFolder, shaderFolder;
+    std::uint64_t volumeBudgetMib = 1024;
     double timeoutSeconds = 600.0;
     std::string tetgenSwitches = "pq1.414";
     std::vector<double> spacing;

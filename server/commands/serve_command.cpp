@@ -106,6 +106,13 @@ void addLimits(CLI::App& command, ServeSettings& settings) {
             [&settings](std::uint64_t mb) { settings.imports.maxMemoryBytes = mb << 20U; },
             "Memory that one import may take (default 8192)")
         ->check(CLI::Range(64, 1 << 20));
+    command
+        .add_option_function<std::uint64_t>(
+            "--volume-budget",
+            [&settings](std::uint64_t mib) { settings.render.volumeBudgetBytes = mib << 20U; },
+            "MiB of GPU memory: a channel of voxels that takes more is drawn from bricks "
+            "(default 1024)")
+        ->check(CLI::Range(workers::kLeastVolumeBudgetMib, workers::kMostVolumeBudgetMib));
 }
 
 }  // namespace

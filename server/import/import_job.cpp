@@ -85,15 +85,25 @@ struct Outcome {
     std::vector<std::string> warnings;
 };
 
-Result<data::Dataset> build(data::load::Loaded& loaded) {
+Result<base::FileDescriptor> packed(const data::Dataset& dataset, ProgressSender& progress) {
+    progress("pack", 0.0);
+    return data::pack(dataset);
+}
+
+Result<base::FileDescriptor> buildAndPack(data::load::Loaded& loaded, ProgressSender& progress) {
+    progress("build", 0.0);
     if (auto* mesh = std::get_if<data::MeshInput>(&loaded.input)) {
         auto built = data::buildMesh(std::move(*mesh));
         if (!built) return built.error();
-        return data::Dataset{std::move(*built)};
+        return packed(std::move(*built), progress);
     }
-    auto built = data::buildVolume(std::move(std::get<data::VolumeInput>(loaded.input)));
+    const auto pyramid = [&progress](double share) { progress("pyramid", share); };
+    if (auto* packer = std::get_if<data::VolumePacker>(&loaded.input)) {
+        return packer->finish(pyramid);
+    }
+    auto built = data::buildVolume(std::move(std::get<data::VolumeInput>(loaded.input)), pyramid);
     if (!built) return built.error();
-    return data::Dataset{std::move(*built)};
+    return packed(std::move(*built), progress);
 }
 
 Result<Outcome> import(const data::load::Request& request, data::load::ImageReader readImages,
@@ -109,13 +119,9 @@ Result<Outcome> import(const data::load::Request& request, data::load::ImageRead
         request, [&](const std::string& stage, double fraction) { progress(stage, fraction); },
         readImages);
     if (!loaded) return loaded.error();
-    progress("build", 0.0);
-    const auto dataset = build(*loaded);
-    if (!dataset) return named(dataset.error());
-    progress("pack", 0.0);
-    auto packed = data::pack(*dataset);
-    if (!packed) return named(packed.error());
-    return Outcome{.packed = std::move(*packed),
+    auto file = buildAndPack(*loaded, progress);
+    if (!file) return named(file.error());
+    return Outcome{.packed = std::move(*file),
                    .format = std::move(loaded->format),
                    .warnings = std::move(loaded->warnings)};
 }

@@ -62,18 +62,24 @@ std::optional<DrawState> ViewFrames::takeDraw(TimePoint now, std::uint64_t& tag)
     asked_.push_back({.tag = tag,
                       .inputSeq = wanted_->inputSeq,
                       .dataVersion = wanted_->dataVersion,
-                      .inputAt = wanted_->inputAt,
+                      .inputAt = wanted_->refines ? now : wanted_->inputAt,
                       .at = now});
     drawing_ = true;
-    std::optional<DrawState> state;
-    state.swap(wanted_);
-    return state;
+    newest_.reset();
+    newest_.swap(wanted_);
+    return newest_;
 }
 
 bool ViewFrames::rendered(const workers::RenderedFrame& frame) {
     const auto asked = std::ranges::find(asked_, frame.tag, &Asked::tag);
     if (asked == asked_.end() || !frame.picture) return false;
-    if (frame.tag == lastTag_) drawing_ = false;
+    if (frame.tag == lastTag_) {
+        drawing_ = false;
+        if (!frame.ready && !wanted_) {
+            wanted_ = newest_;
+            wanted_->refines = true;
+        }
+    }
     picture_ = Shown{.picture = frame.picture, .header = headerOf(frame, *asked)};
     // Older requests cannot come back any more, but this one may: drawn again after a loss.
     asked_.erase(asked_.begin(), asked);
@@ -88,7 +94,8 @@ v1::FrameHeader ViewFrames::headerOf(const workers::RenderedFrame& frame,
     header.set_height(static_cast<std::uint32_t>(frame.picture->size.y));
     header.set_codec(codecs_.jpeg ? v1::CODEC_JPEG : v1::CODEC_PNG);
     header.set_lossless(!codecs_.jpeg);
-    header.set_final(!(codecs_.jpeg && codecs_.png));
+    header.set_final(frame.ready && !(codecs_.jpeg && codecs_.png));
+    header.set_ready(frame.ready);
     header.set_plan_id(frame.plan.id);
     for (const plan::LayerPlan& layer : frame.plan.layers) {
         if (layer.drawn) header.add_integrators(layer.integrator);
@@ -117,8 +124,8 @@ bool ViewFrames::failed(std::uint64_t tag) {
 }
 
 bool ViewFrames::owesLossless() const {
-    return codecs_.jpeg && codecs_.png && shown_ && !exact_ && !wanted_ && !drawing_ && !picture_ &&
-           !encoding_ && !encoded_;
+    return codecs_.jpeg && codecs_.png && shown_ && shown_->header.ready() && !exact_ && !wanted_ &&
+           !drawing_ && !picture_ && !encoding_ && !encoded_;
 }
 
 TimePoint ViewFrames::calmAt() const {

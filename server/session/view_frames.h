@@ -19,7 +19,8 @@ struct DrawState {
     scene::PictureSize size{0};
     std::uint64_t inputSeq = 0;
     std::uint64_t dataVersion = 0;
-    TimePoint inputAt{};  ///< When its newest input came.
+    TimePoint inputAt{};   ///< When its newest input came.
+    bool refines = false;  ///< The same once more, because the last picture was not ready.
 };
 
 /// One picture to compress; the header is complete but for the times of encoding and queueing.
@@ -53,7 +54,9 @@ struct ReadyFrame {
 /// that a newer input overtook.
 ///
 /// Rendering starts only when the client has a credit (FrameFlow). While inputs come, frames are
-/// JPEG; a view left alone for max(150 ms, 1.5 round trips) gets the same picture losslessly.
+/// JPEG; a view left alone for max(150 ms, 1.5 round trips) gets the same picture losslessly. A
+/// picture that is not ready is asked for again, as long as no newer state is, and only the one
+/// that is becomes final.
 class ViewFrames {
 public:
     static constexpr std::chrono::milliseconds kIdle{150};
@@ -116,6 +119,7 @@ private:
     FrameFlow flow_;
     TimePoint lastInput_{};
     std::optional<DrawState> wanted_;  ///< Slot: input -> render.
+    std::optional<DrawState> newest_;  ///< What the newest of asked_ is to show.
     std::deque<Asked> asked_;          ///< The newest last; older ones may still be drawn.
     bool drawing_ = false;             ///< The newest of asked_ has not come back.
     std::uint64_t lastTag_ = 0;

@@ -60,9 +60,13 @@ struct RenderedFrame {
     double waitMs = 0, uploadMs = 0, drawMs = 0, readbackMs = 0, copyMs = 0, cpuMs = 0;
     double workerPeakMb = 0;
     bool drawn = false;
+    bool ready = true;  ///< False: the same request yields a better picture; see scene::FrameInfo.
     WorkDone work;
     std::uint32_t generation = 0;  ///< Of the worker; grows with each replacement.
 };
+
+inline constexpr std::uint64_t kLeastVolumeBudgetMib = 16;
+inline constexpr std::uint64_t kMostVolumeBudgetMib = std::uint64_t{1} << 20;
 
 struct RenderSettings {
     std::string workerPath;   ///< Empty: `volcast-worker` beside this program.
@@ -76,6 +80,9 @@ struct RenderSettings {
     std::chrono::milliseconds heartbeatDeadline{3'000};  ///< And has this long to answer.
     bool warmSpare = true;
     std::string shaderFolder;  ///< Chunks are read from here; empty: the embedded ones.
+    /// Of GPU memory: a channel of voxels that takes more is drawn from a pool of bricks of so
+    /// much.
+    std::uint64_t volumeBudgetBytes = std::uint64_t{1} << 30;
 };
 
 struct RenderStatus {

@@ -231,6 +231,7 @@ void Supervisor::finish(const internal::v1::Rendered& rendered) {
     frame.cpuMs = rendered.cpu_ms();
     frame.workerPeakMb = rendered.peak_mb();
     frame.drawn = rendered.drawn();
+    frame.ready = rendered.ready();
     frame.work = workFrom(rendered.work());
     frame.generation = generation_;
     if (events_.rendered) events_.rendered(std::move(frame));

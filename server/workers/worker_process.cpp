@@ -23,7 +23,8 @@ SpawnDesc spawnDesc(const RenderSettings& settings, const std::string& cacheFold
     SpawnDesc desc;
     desc.program =
         settings.workerPath.empty() ? besideThisProgram("volcast-worker") : settings.workerPath;
-    desc.arguments = {"--cache-dir", cacheFolder};
+    desc.arguments = {"--cache-dir", cacheFolder, "--volume-budget",
+                      std::to_string(settings.volumeBudgetBytes)};
     if (!settings.gpu.empty()) desc.arguments.insert(desc.arguments.end(), {"--gpu", settings.gpu});
     if (!settings.shaderFolder.empty()) {
         desc.arguments.insert(desc.arguments.end(), {"--shader-dir", settings.shaderFolder});

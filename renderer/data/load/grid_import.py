@@ -7,6 +7,7 @@ short without a word.
 import bz2
 import gzip
 import math
+import mmap
 import re
 import zlib
 
@@ -40,6 +41,18 @@ def read_bytes(path, offset=0, limit=-1):
     except OSError as error:
         code = NOT_FOUND if isinstance(error, FileNotFoundError) else IO
         raise Refusal(f"its data file {os.path.basename(path)}: {error.strerror}", code) from error
+
+
+def mapped_bytes(path, offset=0):
+    """The file's bytes from `offset` on; of a large one only what is looked at is read."""
+    try:
+        with open(path, "rb") as file:
+            whole = mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ)
+    except OSError as error:
+        raise Refusal(f"its data file {os.path.basename(path)}: {error.strerror}", IO) from error
+    except ValueError:  # It is empty.
+        return b""
+    return memoryview(whole)[offset:]
 
 
 def unpacked(data, method, expected):
@@ -158,7 +171,8 @@ def read_meta(path, send):
     needed = count * parts * int(dtype[2:])
     check_claim(data_path, count * parts, int(dtype[2:]), packed)
     skip = int(keys.get("HeaderSize", "0"))
-    data = read_bytes(data_path, offset if local else max(skip, 0))
+    read = read_bytes if packed else mapped_bytes
+    data = read(data_path, offset if local else max(skip, 0))
     data = unpacked(data, "zlib" if packed else "raw", needed)
     values = numbers_of(data, dtype, count * parts, f"its data file {os.path.basename(data_path)}",
                         tail=skip == -1)
@@ -272,7 +286,8 @@ def read_nrrd(path, send):
     if method != "bzip2":
         check_claim(data_path, count * parts, itemsize, method != "raw")
     skip = int(fields.get("byteskip", "0"))
-    data = read_bytes(data_path, 0 if name else offset)
+    read = mapped_bytes if method == "raw" else read_bytes
+    data = read(data_path, 0 if name else offset)
     data = data[skip:] if skip > 0 and method == "raw" else data
     data = unpacked(data, method, count * parts * itemsize)
     order = ">" if fields.get("endian", "little") == "big" else "<"

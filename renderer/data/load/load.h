@@ -11,6 +11,7 @@
 #include "renderer/base/result.h"
 #include "renderer/data/mesh_builder.h"
 #include "renderer/data/volume_builder.h"
+#include "renderer/data/volume_packer.h"
 
 namespace volcast::data::load {
 
@@ -24,7 +25,7 @@ struct Request {
 
 /// A file's content before it is made ready to draw.
 struct Loaded {
-    std::variant<MeshInput, VolumeInput> input = {};
+    std::variant<MeshInput, VolumeInput, VolumePacker> input = {};
     std::string format = {};                 ///< As users see it: "VTU", "TetGen", "TIFF stack".
     std::vector<std::string> warnings = {};  ///< What was changed or left out on the way.
 };

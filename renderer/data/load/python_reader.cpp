@@ -76,6 +76,7 @@ public:
     Result<Loaded> finish() {
         Loaded loaded{.format = format_, .warnings = std::move(warnings_)};
         if (volume_) {
+            if (channels_ != volume_->channels()) return nonsense("number of channels");
             loaded.input = std::move(*volume_);
             return loaded;
         }
@@ -164,7 +165,11 @@ private:
         auto n = stream_.values<double>(record);
         if (!n) return n.error();
         if (n->size() != 18) return nonsense("grid");
+        // The voxels' type, and the name of each channel that comes.
+        const std::vector<std::string> parts = splitAt(record.text, '\x1f');
         VolumeInput volume;
+        for (std::size_t i = 1; i < parts.size(); ++i)
+            volume.channels.push_back({.name = parts[i]});
         for (int i = 0; i < 3; ++i) {
             const double size = n->at(i);
             if (!(size >= 1 && size <= kMaxVolumeSide) || size != std::floor(size)) {
@@ -182,21 +187,34 @@ private:
                                                                       {"i16", VoxelType::kI16},
                                                                       {"f32", VoxelType::kF32}}};
         for (const auto& [name, type] : kinds) {
-            if (record.text == name) {
+            if (parts.front() == name) {
                 volume.type = type;
-                volume_ = std::move(volume);
-                return {};
+                return startVolume(std::move(volume));
             }
         }
         return nonsense("voxel type");
     }
 
-    Result<void> channel(const Record& record) {
-        if (!volume_) return nonsense("channel");
-        auto values = stream_.values<std::byte>(record);
-        if (!values) return values.error();
-        volume_->channels.push_back({.name = record.text, .voxels = std::move(*values)});
+    Result<void> startVolume(VolumeInput volume) {
+        if (volume_) return nonsense("grid");
+        auto packer = VolumePacker::create(std::move(volume));
+        if (!packer) return packer.error();
+        volume_ = std::move(*packer);
         return {};
+    }
+
+    /// Its bytes go where they will stay.
+    Result<void> channel(const Record& record) {
+        if (!volume_ || channels_ == volume_->channels()) return nonsense("channel");
+        const std::span<std::byte> voxels = volume_->voxels(channels_);
+        if (record.dataBytes != voxels.size()) {
+            return fail(ErrorCode::kInvalidArgument, "channel '" + volume_->name(channels_) +
+                                                         "': " + std::to_string(record.dataBytes) +
+                                                         " bytes, expected " +
+                                                         std::to_string(voxels.size()));
+        }
+        ++channels_;
+        return stream_.read(voxels.data(), voxels.size());
     }
 
     RecordStream& stream_;
@@ -204,7 +222,8 @@ private:
     std::string format_;
     std::vector<std::string> warnings_;
     MixedMesh mesh_;
-    std::optional<VolumeInput> volume_;
+    std::optional<VolumePacker> volume_;
+    std::size_t channels_ = 0;  ///< That have come.
 };
 
 std::string programOf(const Format& format) {

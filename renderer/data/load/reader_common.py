@@ -48,12 +48,18 @@ class Sender:
         self.file = os.fdopen(fd, "wb", buffering=0)
 
     def record(self, kind, text="", data=b""):
-        words = text.encode("utf-8", "replace")
         view = memoryview(data).cast("B") if len(data) else memoryview(b"")
-        header = memoryview(struct.pack("<IIQ", kind, len(words), view.nbytes) + words)
-        for part in (header, view):
-            while part.nbytes:
-                part = part[self.file.write(part[: 1 << 20]):]
+        self.head(kind, text, view.nbytes)
+        self.write(view)
+
+    def head(self, kind, text, size):
+        """What stands before `size` bytes of data."""
+        words = text.encode("utf-8", "replace")
+        self.write(memoryview(struct.pack("<IIQ", kind, len(words), size) + words))
+
+    def write(self, view):
+        while view.nbytes:
+            view = view[self.file.write(view[: 1 << 20]):]
 
     def progress(self, stage, fraction):
         self.record(PROGRESS, stage, struct.pack("<d", fraction))
@@ -84,15 +90,22 @@ class Sender:
             require_not_infinite(f'field "{part_name}"', part)
             self.record(FIELD, text, little(part, "<f8"))
 
-    def grid(self, size, spacing, origin, direction, kind):
-        """`direction`: 3 x 3, its columns are the grid's axes; `kind`: u8, u16, i16 or f32."""
+    def grid(self, size, spacing, origin, direction, kind, names):
+        """`direction`: 3 x 3, its columns are the grid's axes; `kind`: u8, u16, i16 or f32; `names`
+        of the channels that follow."""
         numbers = [*size, *spacing, *origin, *[x for row in direction for x in row]]
-        self.record(GRID, kind, struct.pack("<18d", *[float(x) for x in numbers]))
+        self.record(GRID, "\x1f".join([kind, *names]), struct.pack("<18d", *[float(x) for x in numbers]))
 
     def channel(self, name, voxels):
-        require_finite(f'channel "{name}"', voxels)
-        little_type = voxels.dtype.newbyteorder("<")
-        self.record(CHANNEL, name, little(voxels, little_type))
+        """Part by part: a whole copy of a large array is never made."""
+        length = 1 << 24
+        starts = range(0, voxels.size, length)
+        for start in starts:  # All before the first is sent: a record that has begun must end.
+            require_finite(f'channel "{name}"', voxels[start:start + length], start)
+        self.head(CHANNEL, name, voxels.size * voxels.dtype.itemsize)
+        for start in starts:
+            part = voxels[start:start + length]
+            self.write(memoryview(little(part, voxels.dtype.newbyteorder("<"))))
 
 
 def little(values, dtype):
@@ -101,10 +114,11 @@ def little(values, dtype):
     return numpy.ascontiguousarray(values, dtype=dtype).reshape(-1).view("u1").data
 
 
-def require_finite(what, values):
+def require_finite(what, values, first=0):
+    """`first`: index of the first value in its array."""
     import numpy
     if values.dtype.kind == "f":
-        refuse_bad(what, values, ~numpy.isfinite(values), "not finite")
+        refuse_bad(what, values, ~numpy.isfinite(values), "not finite", first)
 
 
 def require_not_infinite(what, values):
@@ -114,12 +128,12 @@ def require_not_infinite(what, values):
         refuse_bad(what, values, numpy.isinf(values), "infinite")
 
 
-def refuse_bad(what, values, bad, adjective):
+def refuse_bad(what, values, bad, adjective, first=0):
     """Refuses the first of `values` where `bad` is true."""
     import numpy
     places = numpy.flatnonzero(bad.reshape(-1))
     if len(places):
-        item = places[0] // (values.shape[1] if values.ndim > 1 else 1)
+        item = first + places[0] // (values.shape[1] if values.ndim > 1 else 1)
         value = values.reshape(-1)[places[0]]
         raise Refusal(f"{what}: value {value} at index {item} is {adjective}")
 
@@ -148,7 +162,7 @@ def send_volume(send, size, spacing, origin, direction, channels):
         kind = "f32"
         types = ", ".join(sorted({a.dtype.name for _, a in channels}))
         send.warning(f"voxels of type {types} are kept as float32")
-    send.grid(size, spacing, origin, direction, kind)
+    send.grid(size, spacing, origin, direction, kind, [name for name, _ in channels])
     for name, values in channels:
         if values.size != size[0] * size[1] * size[2]:
             raise Refusal(f'channel "{name}": has {values.size} values, the grid of '

@@ -20,7 +20,7 @@ protected:
         const auto state = frames.takeDraw(now, tag);
         return state ? state->inputSeq : 0;
     }
-    bool finish(std::uint64_t ofTag) {
+    bool finish(std::uint64_t ofTag, bool ready = true) {
         auto picture = std::make_shared<workers::Picture>();
         picture->size = {8, 4};
         picture->rgba8.assign(std::size_t{8} * 4 * 4, static_cast<std::byte>(ofTag));
@@ -28,6 +28,7 @@ protected:
         frame.tag = ofTag;
         frame.picture = picture;
         frame.drawn = true;
+        frame.ready = ready;
         frame.generation = 1;
         return frames.rendered(frame);
     }
@@ -181,6 +182,59 @@ TEST_F(ViewFramesTest, APictureDrawnAgainAfterALossIsSentAgain) {
     showFirst();
     EXPECT_TRUE(finish(tag));
     EXPECT_TRUE(encodeAndSend().has_value());
+}
+
+TEST_F(ViewFramesTest, APictureThatIsNotReadyIsAskedForAgainUntilItIs) {
+    input(1);
+    ASSERT_EQ(draw(), 1U);
+    for (int i = 0; i < 3; ++i) {
+        ASSERT_TRUE(finish(tag, false));
+        const auto frame = encodeAndSend();
+        ASSERT_TRUE(frame.has_value());
+        EXPECT_FALSE(frame->header.ready());
+        EXPECT_FALSE(frame->header.final());
+        EXPECT_EQ(frame->header.input_seq(), 1U);
+        ack(frame->sequence);
+        now += std::chrono::seconds{1};
+        EXPECT_FALSE(encodeAndSend().has_value()) << "it is not worth a lossless picture";
+        ASSERT_EQ(draw(), 1U);
+    }
+    ASSERT_TRUE(finish(tag));
+    const auto frame = encodeAndSend();
+    ASSERT_TRUE(frame.has_value());
+    EXPECT_TRUE(frame->header.ready());
+    EXPECT_LT(frame->header.timings().wait_ms(), 1.0) << "nobody waited for it";
+    ack(frame->sequence);
+    now += std::chrono::seconds{1};
+    EXPECT_EQ(draw(), 0U);
+    const auto lossless = encodeAndSend();
+    ASSERT_TRUE(lossless.has_value());
+    EXPECT_TRUE(lossless->header.final());
+    EXPECT_TRUE(lossless->header.ready());
+}
+
+TEST_F(ViewFramesTest, ANewerInputGoesBeforeWhatIsNotReady) {
+    input(1);
+    ASSERT_EQ(draw(), 1U);
+    input(2);
+    ASSERT_TRUE(finish(tag, false));
+    EXPECT_EQ(draw(), 2U);
+}
+
+TEST_F(ViewFramesTest, WithPngAloneOnlyAReadyPictureIsFinal) {
+    frames = ViewFrames{{.jpeg = false, .png = true}};
+    input(1);
+    ASSERT_EQ(draw(), 1U);
+    ASSERT_TRUE(finish(tag, false));
+    auto frame = encodeAndSend();
+    ASSERT_TRUE(frame.has_value());
+    EXPECT_FALSE(frame->header.final());
+    ack(frame->sequence);
+    ASSERT_EQ(draw(), 1U);
+    ASSERT_TRUE(finish(tag));
+    frame = encodeAndSend();
+    ASSERT_TRUE(frame.has_value());
+    EXPECT_TRUE(frame->header.final());
 }
 
 TEST_F(ViewFramesTest, PicturesThatNobodyAskedForAreIgnored) {
