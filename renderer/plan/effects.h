@@ -34,8 +34,9 @@ inline constexpr const char* kHeadlight = "headlight";            ///< Surface: 
 
 // Voxels; kInterpolation: trilinear or tricubic instead of nearest.
 inline constexpr const char* kEmptyBricks =
-    "empty bricks";                             ///< Bricks without a share are skipped.
-inline constexpr const char* kLight = "light";  ///< Volume: needs the field's slope at samples.
+    "empty bricks";                               ///< Bricks without a share are skipped.
+inline constexpr const char* kLight = "light";    ///< Volume: needs the field's slope at samples.
+inline constexpr const char* kJitter = "jitter";  ///< Samples are not in the middle of steps.
 inline constexpr const char* kStepEnlarged = "step enlarged";  ///< The step asked for is too small.
 
 }  // namespace volcast::plan

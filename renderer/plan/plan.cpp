@@ -110,7 +110,7 @@ LayerPlan planLayer(const scene::Scene& scene, const Layer& layer, const Dataset
     if (summary.isMesh) {
         planMeshRays(plan, matter, scene.accuracy, evidence);
     } else {
-        planVoxels(plan, matter);
+        planVoxels(plan, matter, scene, evidence);
     }
     planCamera(plan, matter, scene.camera);
     if (row.opaque) {

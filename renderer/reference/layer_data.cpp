@@ -88,8 +88,11 @@ void scaleNumbers(const scene::ScaleFunction& ofF, const scene::ScaleFunction& o
                   LayerData& data) {
     const scene::Layer& layer = *data.layer;
     data.colour = LinearMap{layer.map, ofF};
-    data.extinction =
-        LinearMap{layer.densityMap.points.empty() ? layer.map : layer.densityMap, ofG};
+    data::TransferFunction density = layer.densityMap.points.empty() ? layer.map : layer.densityMap;
+    if (layer.model == scene::RayModel::kVolume && layer.gain != 0.0F) {
+        for (auto& point : density.points) point.extinction *= std::exp(layer.gain);
+    }
+    data.extinction = LinearMap{density, ofG};
     if (layer.interval) data.interval = scaledRange(*layer.interval, ofF);
     if (layer.model != scene::RayModel::kIsosurface) return;
     for (const float level : scene::resolved(layer.levels)) {
@@ -153,9 +156,11 @@ void convert(data::VoxelType type, std::span<const std::byte> voxels,
 /// Looks up the channel and scales all that is in its unit.
 Result<void> readVoxels(const data::Volume& volume, LayerData& data, const std::string& path) {
     const scene::Layer& layer = *data.layer;
-    if (!scene::row(layer.model).onVolumes) {
+    if (scene::row(layer.model).chunk.empty()) {
         return fail(ErrorCode::kUnsupported,
-                    path + ".model: a volume of voxels has no faces to draw", path + ".model");
+                    path + ".model: the reference has no " + std::string{scene::name(layer.model)} +
+                        " of voxels",
+                    path + ".model");
     }
     auto channel = volume.channels.begin();
     if (!layer.field.empty()) {

@@ -58,6 +58,7 @@ glm::dvec4 gathered(const LayerData& data, const Ray& ray, std::span<const Voxel
             const bool max = layer.model == scene::RayModel::kMip;
             return {glm::dvec3{data.colour.at(max ? found->max : found->min)}, 1.0};
         }
+        case scene::RayModel::kCrossSections:
         case scene::RayModel::kSurface:
         case scene::RayModel::kWireframe:
         case scene::RayModel::kIsosurface: break;
