@@ -7,7 +7,7 @@
 
 namespace volcast::accuracy {
 
-std::vector<Candidate> candidates(const scene::Scene& scene) {
+std::vector<Candidate> candidates(const scene::Scene& scene, const std::set<std::string>& volumes) {
     using scene::MeshEvaluator;
     constexpr std::array kEvaluators{MeshEvaluator::kWalk, MeshEvaluator::kProjection,
                                      MeshEvaluator::kProjectionFaces};
@@ -15,10 +15,11 @@ std::vector<Candidate> candidates(const scene::Scene& scene) {
     for (std::size_t i = 0; i < scene.layers.size(); ++i) {
         const scene::Layer& layer = scene.layers[i];
         if (!layer.visible) continue;
-        for (const scene::IntegratorRow& row : scene::row(layer.model).integrators) {
+        const bool mesh = !volumes.contains(layer.dataset);
+        for (const scene::IntegratorRow& row : scene::row(layer.model).integratorsOf(mesh)) {
             bool served = false;
             for (const MeshEvaluator evaluator : kEvaluators) {
-                if (!scene::serves(evaluator, layer.model, row.integrator)) continue;
+                if (!mesh || !scene::serves(evaluator, layer.model, row.integrator)) continue;
                 served = true;
                 found.push_back({.layer = i, .integrator = row.integrator, .evaluator = evaluator});
             }

@@ -27,6 +27,10 @@ scene::Scene essence(scene::Scene scene) {
     for (scene::Layer& layer : scene.layers) {
         layer.integrator = scene::Integrator::kAuto;
         layer.evaluator = scene::MeshEvaluator::kAuto;
+        layer.voxelEvaluator = scene::VoxelEvaluator::kAuto;
+        layer.stepWorld = 0.0;
+        layer.depthSamples = 0;
+        layer.jitter.reset();
     }
     return scene;
 }
