@@ -48,9 +48,9 @@ void planVoxelMethod(LayerPlan& plan, const Matter& matter, const scene::Accurac
                      std::span<const Evidence> evidence) {
     const auto rows = scene::row(matter.layer.model).voxelIntegrators;
     const bool march = plan.evaluator == Evaluator::kVolumeMarch;
-    const Method method = march ? methodOf(matter, wish, evidence)
-                                : Method{.integrator = rows.front().integrator,
-                                         .reason = "each slice is a sample"};
+    const Method method =
+        march ? methodOf(matter, wish, evidence)
+              : Method{.integrator = rows.front().integrator, .reason = "each slice is a sample"};
     plan.method = method.integrator;
     planEvidence(plan, evidence);
     const bool choice = march && rows.size() > 1;
