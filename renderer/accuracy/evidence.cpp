@@ -1,6 +1,7 @@
 #include "renderer/accuracy/evidence.h"
 
 #include <algorithm>
+#include <variant>
 
 #include "renderer/plan/method.h"
 #include "renderer/scene/ray_models.h"
@@ -28,6 +29,11 @@ scene::PictureSize smallOf(scene::PictureSize size) {
 
 }  // namespace
 
+bool EvidenceKeeper::isMesh(const scene::Layer& layer) const {
+    const data::Dataset* dataset = renderer_.dataset(layer.dataset);
+    return dataset != nullptr && std::holds_alternative<data::Mesh>(*dataset);
+}
+
 Result<const EvidenceKeeper::Known*> EvidenceKeeper::known(const scene::Scene& scene,
                                                            scene::PictureSize size,
                                                            std::size_t layer) {
@@ -46,7 +52,8 @@ Result<const EvidenceKeeper::Known*> EvidenceKeeper::known(const scene::Scene& s
     if (!cells) return cells.error();
     made.cellsPerRay = *cells;
     if (withErrors) {
-        for (const auto& row : scene::row(scene.layers[layer].model).integrators) {
+        const scene::Layer& own = scene.layers[layer];
+        for (const auto& row : scene::row(own.model).integratorsOf(isMesh(own))) {
             const auto measured =
                 meter_.measure({.scene = scene,
                                 .size = small,
@@ -68,18 +75,21 @@ Result<plan::SceneEvidence> EvidenceKeeper::of(const scene::Scene& scene, scene:
         const scene::Layer& layer = scene.layers[i];
         if (!layer.visible || !plan::needsEvidence(layer, scene.accuracy)) continue;
         const auto found = known(scene, size, i);
-        Result<void> costs =
-            found ? costs_.prepare(renderer_, layer.model) : Result<void>{found.error()};
+        const bool mesh = isMesh(layer);
+        Result<void> costs = found ? Result<void>{} : Result<void>{found.error()};
+        if (found && mesh) costs = costs_.prepare(renderer_, layer.model);
         if (!costs) {
             if (costs.error().code == ErrorCode::kDeviceLost) return costs.error();
-            continue;  // Such as voxels, which have no reference: drawn as well as can be.
+            continue;  // Drawn as well as can be.
         }
         std::vector<plan::Evidence>& rows = evidence[layer.id];
-        for (const scene::IntegratorRow& row : scene::row(layer.model).integrators) {
+        for (const auto& row : scene::row(layer.model).integratorsOf(mesh)) {
             plan::Evidence& one = rows.emplace_back();
             one.integrator = row.integrator;
-            one.predictedMs =
-                costs_.predictMs({layer.model, row.integrator}, size, (*found)->cellsPerRay);
+            if (mesh) {
+                one.predictedMs =
+                    costs_.predictMs({layer.model, row.integrator}, size, (*found)->cellsPerRay);
+            }
             const auto error = (*found)->errors.find(row.integrator);
             if (error != (*found)->errors.end()) one.error = error->second;
         }

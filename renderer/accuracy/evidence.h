@@ -46,7 +46,8 @@ private:
 };
 
 /// Gathers what plans need to know where a scene bounds error or time, and keeps it: errors hold
-/// for a scene whatever its camera, until its data, maps or models change.
+/// for a scene whatever its camera, until its data, maps or models change. Of voxels errors alone
+/// are known.
 class EvidenceKeeper {
 public:
     EvidenceKeeper(scene::Renderer& renderer, Meter& meter, Costs costs)
@@ -67,6 +68,7 @@ private:
         double cellsPerRay = 0.0;
         std::map<scene::Integrator, double> errors = {};  ///< Largest, in 1/255.
     };
+    [[nodiscard]] bool isMesh(const scene::Layer& layer) const;
     Result<const Known*> known(const scene::Scene& scene, scene::PictureSize size,
                                std::size_t layer);
 

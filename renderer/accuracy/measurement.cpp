@@ -7,7 +7,7 @@
 
 namespace volcast::accuracy {
 
-std::vector<Candidate> candidates(const scene::Scene& scene) {
+std::vector<Candidate> candidates(const scene::Scene& scene, const std::set<std::string>& volumes) {
     using scene::MeshEvaluator;
     constexpr std::array kEvaluators{MeshEvaluator::kWalk, MeshEvaluator::kProjection,
                                      MeshEvaluator::kProjectionFaces};
@@ -16,10 +16,11 @@ std::vector<Candidate> candidates(const scene::Scene& scene) {
         const scene::Layer& layer = scene.layers[i];
         // Of users' code there is no reference.
         if (!layer.visible || !layer.shader.code.empty()) continue;
-        for (const scene::IntegratorRow& row : scene::row(layer.model).integrators) {
+        const bool mesh = !volumes.contains(layer.dataset);
+        for (const scene::IntegratorRow& row : scene::row(layer.model).integratorsOf(mesh)) {
             bool served = false;
             for (const MeshEvaluator evaluator : kEvaluators) {
-                if (!scene::serves(evaluator, layer.model, row.integrator)) continue;
+                if (!mesh || !scene::serves(evaluator, layer.model, row.integrator)) continue;
                 served = true;
                 found.push_back({.layer = i, .integrator = row.integrator, .evaluator = evaluator});
             }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -60,8 +61,10 @@ struct Measurement {
 };
 
 /// All ways that the registry has for the visible layers of `scene`, in its order: integrators from
-/// cheap to exact, and each evaluator that serves them. Layers drawn as triangles have one.
-std::vector<Candidate> candidates(const scene::Scene& scene);
+/// cheap to exact, and each evaluator that serves them. Layers drawn as triangles have one, and so
+/// has each integrator of voxels. `volumes`: ids of datasets that are voxels.
+std::vector<Candidate> candidates(const scene::Scene& scene,
+                                  const std::set<std::string>& volumes = {});
 
 /// `scene` with one layer drawn as `candidate` says, and exactly wherever no integrator is named.
 scene::Scene withCandidate(const scene::Scene& scene, const Candidate& candidate);

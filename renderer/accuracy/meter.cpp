@@ -27,6 +27,10 @@ scene::Scene essence(scene::Scene scene) {
     for (scene::Layer& layer : scene.layers) {
         layer.integrator = scene::Integrator::kAuto;
         layer.evaluator = scene::MeshEvaluator::kAuto;
+        layer.voxelEvaluator = scene::VoxelEvaluator::kAuto;
+        layer.stepWorld = 0.0;
+        layer.depthSamples = 0;
+        layer.jitter.reset();
     }
     return scene;
 }
@@ -56,7 +60,7 @@ double medianOf(const std::vector<double>& sorted) {
 void Meter::forget(const std::string& dataset) {
     if (search_ && uses(search_->question.scene, dataset)) search_.reset();
     if (run_ && uses(run_->scene, dataset)) stop();
-    casters_.erase(dataset);
+    bodies_.erase(dataset);
     std::erase_if(truths_, [&](const Truth& truth) { return uses(truth.question.scene, dataset); });
 }
 
@@ -65,28 +69,27 @@ Meter::Question Meter::questionOf(const scene::Scene& scene, scene::PictureSize 
     return {.scene = essence(scene), .size = size, .pixels = samplePixels(size, pixels)};
 }
 
-Meter::Meshes Meter::meshesOf(const scene::Scene& scene) const {
-    Meshes meshes;
+Meter::Datasets Meter::datasetsOf(const scene::Scene& scene) const {
+    Datasets datasets;
     for (const scene::Layer& layer : scene.layers) {
         const data::Dataset* dataset = renderer_.dataset(layer.dataset);
-        const auto* mesh = dataset == nullptr ? nullptr : std::get_if<data::Mesh>(dataset);
-        if (mesh != nullptr) meshes[layer.dataset] = mesh;
+        if (dataset != nullptr) datasets[layer.dataset] = dataset;
     }
-    return meshes;
+    return datasets;
 }
 
-Result<Meter::Answer> Meter::ask(const Question& question, reference::Casters casters,
-                                 const Meshes& meshes, const std::atomic<bool>* cancelled) {
+Result<Meter::Answer> Meter::ask(const Question& question, reference::Bodies bodies,
+                                 const Datasets& datasets, const std::atomic<bool>* cancelled) {
     const double start = threadCpuSeconds();
-    for (const auto& [id, mesh] : meshes) {
-        if (!casters.contains(id)) casters[id] = reference::makeCaster(*mesh);
+    for (const auto& [id, dataset] : datasets) {
+        if (!bodies.contains(id)) bodies[id] = reference::makeBody(*dataset);
     }
     const double treeSeconds = threadCpuSeconds() - start;
-    auto picture = reference::draw(question.scene, casters, question.size, question.pixels,
+    auto picture = reference::draw(question.scene, bodies, question.size, question.pixels,
                                    threadCount(), cancelled);
     if (!picture) return std::move(picture).error();
     return Answer{
-        .picture = *std::move(picture), .casters = std::move(casters), .treeSeconds = treeSeconds};
+        .picture = *std::move(picture), .bodies = std::move(bodies), .treeSeconds = treeSeconds};
 }
 
 Meter::Truth* Meter::known(const Question& question) {
@@ -97,7 +100,7 @@ Meter::Truth* Meter::known(const Question& question) {
 }
 
 Meter::Truth* Meter::keep(Question question, Answer answer) {
-    casters_.merge(answer.casters);
+    bodies_.merge(answer.bodies);
     const ReferenceEffort effort{.rays = answer.picture.rays,
                                  .raySeconds = answer.picture.cpuSeconds,
                                  .treeSeconds = answer.treeSeconds};
@@ -109,7 +112,7 @@ Meter::Truth* Meter::keep(Question question, Answer answer) {
 
 Result<Meter::Truth*> Meter::truthOf(const Question& question) {
     if (Truth* truth = known(question)) return truth;
-    auto answer = ask(question, casters_, meshesOf(question.scene), nullptr);
+    auto answer = ask(question, bodies_, datasetsOf(question.scene), nullptr);
     if (!answer) return std::move(answer).error();
     return keep(question, *std::move(answer));
 }
@@ -120,10 +123,10 @@ Result<Meter::Truth*> Meter::searchFor(const Question& question) {
         search_.reset();
         search_ = std::make_unique<Search>();
         search_->question = question;
-        const auto work = [search = search_.get(), casters = casters_,
-                           meshes = meshesOf(search_->question.scene)] {
+        const auto work = [search = search_.get(), bodies = bodies_,
+                           datasets = datasetsOf(search_->question.scene)] {
             ::setpriority(PRIO_PROCESS, 0, kBackgroundNice);  // Of this thread and its own.
-            return ask(search->question, casters, meshes, &search->cancelled);
+            return ask(search->question, bodies, datasets, &search->cancelled);
         };
         search_->answer = std::async(std::launch::async, work);
     }

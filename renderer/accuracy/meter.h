@@ -27,7 +27,7 @@ public:
     /// a repetition.
     ///
     /// Errors: as scene::Renderer::render and reference::draw; kInvalidArgument for a layer that
-    /// the scene does not have; kUnsupported for voxel volumes.
+    /// the scene does not have.
     Result<Measurement> measure(const Job& job);
 
     /// The same in parts, so that other pictures can be drawn between them: a call draws one
@@ -61,8 +61,8 @@ private:
     };
     struct Answer {
         reference::Picture picture;
-        reference::Casters casters;  ///< Also those that had to be made,
-        double treeSeconds = 0.0;    ///< in this time.
+        reference::Bodies bodies;  ///< Also those that had to be made,
+        double treeSeconds = 0.0;  ///< in this time.
     };
     /// The reference at work, in the background.
     struct Search {
@@ -88,13 +88,13 @@ private:
         Measurement measured = {};
         int drawn = 0;  ///< Pictures.
     };
-    using Meshes = std::map<std::string, const data::Mesh*>;
+    using Datasets = std::map<std::string, const data::Dataset*>;
 
     static Question questionOf(const scene::Scene& scene, scene::PictureSize size,
                                std::uint64_t pixels);
-    [[nodiscard]] Meshes meshesOf(const scene::Scene& scene) const;
-    static Result<Answer> ask(const Question& question, reference::Casters casters,
-                              const Meshes& meshes, const std::atomic<bool>* cancelled);
+    [[nodiscard]] Datasets datasetsOf(const scene::Scene& scene) const;
+    static Result<Answer> ask(const Question& question, reference::Bodies bodies,
+                              const Datasets& datasets, const std::atomic<bool>* cancelled);
     /// Null: not known.
     Truth* known(const Question& question);
     Truth* keep(Question question, Answer answer);
@@ -107,7 +107,7 @@ private:
     static Measurement finish(Run& run, Truth& truth);
 
     scene::Renderer& renderer_;
-    reference::Casters casters_;
+    reference::Bodies bodies_;
     std::list<Truth> truths_;  ///< The last used first.
     std::unique_ptr<Search> search_;
     std::optional<Run> run_;  ///< Of advance().

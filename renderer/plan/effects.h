@@ -34,10 +34,11 @@ inline constexpr const char* kHeadlight = "headlight";            ///< Surface: 
 
 // Voxels; kInterpolation: trilinear or tricubic instead of nearest.
 inline constexpr const char* kEmptyBricks =
-    "empty bricks";                               ///< Bricks without a share are skipped.
-inline constexpr const char* kBricks = "bricks";  ///< Voxels are loaded by bricks, as needed.
+    "empty bricks";                                   ///< Bricks without a share are skipped.
+inline constexpr const char* kBricks = "bricks";      ///< Voxels are loaded by bricks, as needed.
 inline constexpr const char* kChannels = "channels";  ///< Several are drawn together.
 inline constexpr const char* kLight = "light";    ///< Volume: needs the field's slope at samples.
+inline constexpr const char* kJitter = "jitter";  ///< Samples are not in the middle of steps.
 inline constexpr const char* kUserShader =
     "user shader";  ///< A user's code says what samples show.
 inline constexpr const char* kStepEnlarged = "step enlarged";  ///< The step asked for is too small.

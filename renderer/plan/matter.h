@@ -41,15 +41,22 @@ void add(LayerPlan& plan, const char* name, bool on, std::string reason);
 void planEarlyStop(LayerPlan& plan, const Matter& matter);
 void planHeadlight(LayerPlan& plan, const scene::Layer& isosurface);
 
+/// What is known of the method chosen.
+void planEvidence(LayerPlan& plan, std::span<const Evidence> evidence);
+
 /// Rays through a mesh.
 void planMeshRays(LayerPlan& plan, const Matter& matter, const scene::Accuracy& wish,
                   std::span<const Evidence> evidence);
 /// Boundary faces.
 void planSurface(LayerPlan& plan, const Matter& matter);
 /// Rays through voxels.
-void planVoxels(LayerPlan& plan, const Matter& matter);
+void planVoxels(LayerPlan& plan, const Matter& matter, const scene::Scene& scene,
+                std::span<const Evidence> evidence);
 /// Whether voxels are on the GPU as a whole or as bricks; after the two around this one.
 void planResidency(LayerPlan& plan, const Matter& matter, const Limits& limits);
+/// How their pieces are integrated.
+void planVoxelMethod(LayerPlan& plan, const Matter& matter, const scene::Accuracy& wish,
+                     std::span<const Evidence> evidence);
 /// Planes through voxels.
 void planCrossSections(LayerPlan& plan, const Matter& matter);
 

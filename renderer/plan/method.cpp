@@ -6,8 +6,6 @@
 #include <limits>
 #include <string>
 
-#include "renderer/scene/ray_models.h"
-
 namespace volcast::plan {
 
 using scene::Accuracy;
@@ -79,9 +77,9 @@ bool needsEvidence(const scene::Layer& layer, const Accuracy& wish) {
            scene::row(layer.model).integrators.size() > 1;
 }
 
-Method chooseMethod(const scene::Layer& layer, const Accuracy& wish, bool constantInCells,
+Method chooseMethod(const scene::Layer& layer, std::span<const scene::IntegratorRow> integrators,
+                    const Accuracy& wish, bool constantInCells,
                     std::span<const Evidence> evidence) {
-    const auto& integrators = scene::row(layer.model).integrators;
     const Integrator exact = integrators.back().integrator;
     const Integrator cheap = integrators.front().integrator;
     if (layer.integrator != Integrator::kAuto) {

@@ -5,6 +5,7 @@
 #include "renderer/data/dataset.h"
 #include "renderer/plan/evidence.h"
 #include "renderer/plan/plan.h"
+#include "renderer/scene/ray_models.h"
 
 namespace volcast::plan {
 
@@ -14,9 +15,11 @@ struct Method {
     std::string reason;
 };
 
-/// `constantInCells`: both fields have one value a cell. `evidence`: what is known of the model's
-/// integrators; a bound that nothing is known about is met by the exact one.
-Method chooseMethod(const scene::Layer& layer, const scene::Accuracy& wish, bool constantInCells,
+/// `integrators`: those that serve the layer. `constantInCells`: fields have one value a cell.
+/// `evidence`: what is known of the model's integrators; a bound that nothing is known about is met
+/// by the exact one.
+Method chooseMethod(const scene::Layer& layer, std::span<const scene::IntegratorRow> integrators,
+                    const scene::Accuracy& wish, bool constantInCells,
                     std::span<const Evidence> evidence = {});
 
 /// Whether chooseMethod() would use evidence.

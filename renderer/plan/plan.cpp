@@ -117,7 +117,7 @@ LayerPlan planLayer(const scene::Scene& scene, const Layer& layer, const Dataset
     if (summary.isMesh) {
         planMeshRays(plan, matter, scene.accuracy, evidence);
     } else {
-        planVoxels(plan, matter);
+        planVoxels(plan, matter, scene, evidence);
         planResidency(plan, matter, limits);
     }
     planCamera(plan, matter, scene.camera);

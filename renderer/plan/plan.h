@@ -56,6 +56,14 @@ struct FramePlan {
 /// iterations without a word; what is left is for passing over bricks.
 inline constexpr int kMaxRaySamples = 60'000;
 
+/// The same where pieces are split, and their parts: both are loops.
+inline constexpr int kMaxRayPieces = 30'000;
+inline constexpr int kMaxRayParts = 30'000;
+
+/// Rounds that an adaptive march may need for one of the layer's steps: 4 as short as they get, and
+/// as many that are tried and halved.
+inline constexpr int kMaxRoundsAStep = 8;
+
 /// How far tricubic values may leave the range of the voxels they come from, as a part of it:
 /// derived in shaders/volume/march_ray.glsl.
 inline constexpr float kTricubicOvershoot = 0.48F;

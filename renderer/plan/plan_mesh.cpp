@@ -38,18 +38,11 @@ bool oneColour(const data::TransferFunction& map) {
     });
 }
 
-/// What is known of the method chosen.
-void planEvidence(LayerPlan& plan, std::span<const Evidence> evidence) {
-    const auto known = std::ranges::find(evidence, plan.method, &Evidence::integrator);
-    if (known == evidence.end()) return;
-    plan.predictedMs = known->predictedMs;
-    plan.errorBound = known->error;
-}
-
 void planMethod(LayerPlan& plan, const Matter& matter, const scene::Accuracy& wish,
                 std::span<const Evidence> evidence) {
     const bool constant = !varies(matter.field) && !(matter.second && varies(matter.second->field));
-    const Method method = chooseMethod(matter.layer, wish, constant, evidence);
+    const Method method = chooseMethod(matter.layer, scene::row(matter.layer.model).integrators,
+                                       wish, constant, evidence);
     plan.method = method.integrator;
     planEvidence(plan, evidence);
     const bool choice = scene::row(matter.layer.model).integrators.size() > 1;

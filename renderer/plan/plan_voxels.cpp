@@ -11,20 +11,55 @@ namespace {
 using scene::Layer;
 using scene::RayModel;
 
-void planStep(LayerPlan& plan, const Matter& matter) {
+/// Steps on a ray that all loops of a pixel have room for.
+int mostSteps(scene::Integrator method) {
+    if (method == scene::Integrator::kAdaptive) return kMaxRayPieces / kMaxRoundsAStep;
+    return method == scene::Integrator::kExact ? kMaxRayPieces : kMaxRaySamples;
+}
+
+/// How far the data's bounds reach along the view, world units.
+double depthOf(const data::Box& bounds, const scene::Camera& camera) {
+    const glm::dvec3 forward = glm::normalize(camera.center - camera.eye);
+    return glm::dot(glm::abs(forward), bounds.max - bounds.min);
+}
+
+/// The step that a layer asks for, world units.
+double wantedStep(const Matter& matter, const scene::Camera& camera) {
+    if (matter.layer.depthSamples > 0) {
+        return depthOf(matter.summary.bounds, camera) / matter.layer.depthSamples;
+    }
     const glm::dvec3 spacing = matter.summary.spacing;
-    const double wanted = matter.layer.stepWorld > 0.0
-                              ? matter.layer.stepWorld
-                              : 0.5 * std::min({spacing.x, spacing.y, spacing.z});
+    return matter.layer.stepWorld > 0.0 ? matter.layer.stepWorld
+                                        : 0.5 * std::min({spacing.x, spacing.y, spacing.z});
+}
+
+void planStep(LayerPlan& plan, const Matter& matter, const scene::Camera& camera) {
+    const glm::dvec3 spacing = matter.summary.spacing;
+    const double wanted = wantedStep(matter, camera);
     const double longest = glm::length(spacing * glm::dvec3(matter.summary.voxels - 1));
-    const double smallest = longest / kMaxRaySamples;
+    const double smallest = longest / mostSteps(plan.method);
     plan.stepWorld = std::max(wanted, smallest);
     const bool enlarged = wanted < smallest;
     add(plan, kStepEnlarged, enlarged,
-        enlarged
-            ? "a step of " + number(wanted) + " needs more than " + std::to_string(kMaxRaySamples) +
-                  " samples on a ray: drawn with " + number(smallest)
+        enlarged ? "a step of " + number(wanted) + " needs more than " +
+                       std::to_string(mostSteps(plan.method)) + " samples on a ray: drawn with " +
+                       number(smallest)
+        : matter.layer.depthSamples > 0
+            ? std::to_string(matter.layer.depthSamples) + " samples over the depth of the data"
             : "the step is as asked for");
+}
+
+/// Samples that stand for a whole step may be anywhere in it.
+void planJitter(LayerPlan& plan, const Layer& layer) {
+    const bool samples = plan.method == scene::row(layer.model).voxelIntegrators[0].integrator ||
+                         layer.model == RayModel::kMipColour;
+    const bool march = plan.evaluator == Evaluator::kVolumeMarch;
+    const bool on =
+        march && layer.jitter.has_value() && samples && layer.model != RayModel::kIsosurface;
+    add(plan, kJitter, on,
+        on              ? "samples are moved in their steps, by the pixel and the seed"
+        : !layer.jitter ? "samples are in the middle of their steps"
+                        : "what lies between samples counts, wherever they are");
 }
 
 /// Why bricks can be passed over whatever the map; empty where they cannot.
@@ -67,13 +102,6 @@ void planBricks(LayerPlan& plan, const Matter& matter) {
     }
 }
 
-/// What the model does with samples: a sample's piece is constant, so that cheap ways are right.
-scene::Integrator methodOfSamples(RayModel model, bool continuous) {
-    const scene::Integrator cheapest = scene::row(model).integrators.front().integrator;
-    // A field that is continuous has every value between those of its samples.
-    return model == RayModel::kMipColour && continuous ? scene::Integrator::kExact : cheapest;
-}
-
 Evaluator evaluatorFor(scene::VoxelEvaluator evaluator) {
     switch (evaluator) {
         case scene::VoxelEvaluator::kSlices: return Evaluator::kVolumeSlices;
@@ -100,12 +128,12 @@ void planLight(LayerPlan& plan, const Layer& volume) {
 }
 
 /// A user's code in the place of the map.
-void planUserShader(LayerPlan& plan, const Matter& matter) {
+void planUserShader(LayerPlan& plan, const Matter& matter, const scene::Camera& camera) {
     plan.evaluator = Evaluator::kVolumeMarch;
     plan.integrator = "user shader";
     plan.method = scene::Integrator::kAverage;
     add(plan, kUserShader, true, "the layer's code says what a sample shows; its map is not used");
-    planStep(plan, matter);
+    planStep(plan, matter, camera);
     add(plan, kEmptyBricks, false, "nobody knows what the code shows of a brick's values");
     const bool gathers = matter.layer.model == RayModel::kVolume;
     add(plan, kEarlyStop, gathers,
@@ -114,18 +142,19 @@ void planUserShader(LayerPlan& plan, const Matter& matter) {
 
 }  // namespace
 
-void planVoxels(LayerPlan& plan, const Matter& matter) {
+void planVoxels(LayerPlan& plan, const Matter& matter, const scene::Scene& scene,
+                std::span<const Evidence> evidence) {
     plan.evaluator = evaluatorFor(matter.layer.voxelEvaluator);
-    plan.integrator = plan.evaluator == Evaluator::kVolumeMarch ? "march" : "slices";
+    plan.integrator = "march";
     planChannels(plan, matter.layer);
     planInterpolation(plan, matter.layer);
-    if (!matter.layer.shader.code.empty()) return planUserShader(plan, matter);
+    if (!matter.layer.shader.code.empty()) return planUserShader(plan, matter, scene.camera);
     add(plan, kUserShader, false, "the map says what a sample shows");
-    plan.method = methodOfSamples(
-        matter.layer.model, plan.has(kInterpolation) && plan.evaluator == Evaluator::kVolumeMarch);
+    planVoxelMethod(plan, matter, scene.accuracy, evidence);
     if (matter.layer.model == RayModel::kIsosurface) planHeadlight(plan, matter.layer);
     if (matter.layer.model == RayModel::kVolume) planLight(plan, matter.layer);
-    planStep(plan, matter);
+    planStep(plan, matter, scene.camera);
+    planJitter(plan, matter.layer);
     if (plan.evaluator == Evaluator::kVolumeMarch) {
         planBricks(plan, matter);
         planEarlyStop(plan, matter);

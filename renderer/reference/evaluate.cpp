@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "renderer/reference/surface.h"
+#include "renderer/reference/voxel_layer.h"
 #include "renderer/scene/ray_models.h"
 
 namespace volcast::reference {
@@ -66,13 +67,26 @@ glm::dvec4 gathered(const LayerData& data, std::span<const Part> parts,
     return glm::dvec4{0.0};
 }
 
+/// Fills in the pieces of a ray that meet the layer's data.
+void trace(const LayerData& data, const Ray& ray, const Span& span, Scratch& scratch,
+           Sight& sight) {
+    if (data.grid) {
+        data.grid->trace(ray, span, scratch.walls, scratch.voxelPieces);
+        sight.pieces += scratch.voxelPieces.size();
+        return;
+    }
+    data.caster->trace(ray, span, data.kept, data.f, data.g, scratch.pieces);
+    sight.pieces += scratch.pieces.size();
+}
+
 }  // namespace
 
 Evaluator::Evaluator(const scene::Scene& scene, std::span<const LayerData> layers,
                      scene::PictureSize size)
     : clipPlanes_{scene.clipPlanes}, layers_{layers}, lens_{scene.camera, size} {
     for (const LayerData& data : layers) {
-        mayJump_ = mayJump_ || !gathersSmoothly(data.layer->model);
+        const bool jumps = data.grid && !data.grid->continuous();
+        mayJump_ = mayJump_ || jumps || !gathersSmoothly(data.layer->model);
     }
 }
 
@@ -103,12 +117,15 @@ void Evaluator::meetBoundary(const LayerData& data, const Ray& ray, const glm::d
 
 void Evaluator::meetLevel(const LayerData& data, const Ray& ray, const Span& span, Scratch& scratch,
                           Hit& hit, Sight& sight) {
-    const auto found = firstLevel(scratch.pieces, span, data.levels);
+    const auto found = data.grid ? firstLevel(scratch.voxelPieces, data.levels)
+                                 : firstLevel(scratch.pieces, span, data.levels);
     mixIn(sight.folds, found ? static_cast<std::uint64_t>(found->crossings) : 0U);
     if (!found || found->distance >= hit.distance) return;
     hit.distance = found->distance;
     hit.level = found->level;
-    hit.facing = facingGradient(data.caster->mesh(), found->cell, data.f, ray.direction);
+    hit.facing = data.grid
+                     ? facingSlope(*data.grid, ray, found->distance)
+                     : facingGradient(data.caster->mesh(), found->cell, data.f, ray.direction);
     hit.colour =
         glm::dvec3{data.twoFields ? data.extinction.at(found->g) : data.colour.at(found->level)};
     if (data.layer->headlight) hit.colour *= hit.facing;
@@ -125,6 +142,19 @@ bool Evaluator::apart(const Sight& a, const Sight& b) const {
     return std::abs(a.distance - b.distance) > 2.0 * lens_.pixelSize(far.distance) * (slope + 1.0);
 }
 
+glm::dvec4 Evaluator::through(const LayerData& data, const Ray& ray, const Span& span, bool colours,
+                              Scratch& scratch, Sight& sight) {
+    trace(data, ray, span, scratch, sight);
+    if (data.grid) {
+        cutVoxels(data.interval, scratch.voxelPieces);
+        mixIn(sight.shape, entries(scratch.voxelPieces));
+        return colours ? gathered(data, ray, scratch.voxelPieces) : glm::dvec4{0.0};
+    }
+    cut(scratch.pieces, span, data.interval, scratch.parts);
+    mixIn(sight.shape, entries(scratch.parts));
+    return colours ? gathered(data, scratch.parts, scratch.bends) : glm::dvec4{0.0};
+}
+
 Sight Evaluator::look(const glm::dvec2& place, bool colours, Scratch& scratch) const {
     ++scratch.rays;
     Sight sight;
@@ -134,8 +164,7 @@ Sight Evaluator::look(const glm::dvec2& place, bool colours, Scratch& scratch) c
     for (std::size_t i = 0; i < layers_.size(); ++i) {
         const LayerData& data = layers_[i];
         if (!scene::row(data.layer->model).opaque) continue;
-        data.caster->trace(ray, span, data.kept, data.f, data.g, scratch.pieces);
-        sight.pieces += scratch.pieces.size();
+        trace(data, ray, span, scratch, sight);
         const double before = hit.distance;
         if (data.layer->model == scene::RayModel::kIsosurface) {
             meetLevel(data, ray, span, scratch, hit, sight);
@@ -152,12 +181,7 @@ Sight Evaluator::look(const glm::dvec2& place, bool colours, Scratch& scratch) c
     span.end = std::min(span.end, hit.distance);
     for (const LayerData& data : layers_) {
         if (scene::row(data.layer->model).opaque) continue;
-        data.caster->trace(ray, span, data.kept, data.f, data.g, scratch.pieces);
-        sight.pieces += scratch.pieces.size();
-        cut(scratch.pieces, span, data.interval, scratch.parts);
-        mixIn(sight.shape, entries(scratch.parts));
-        if (!colours) continue;
-        const glm::dvec4 own = gathered(data, scratch.parts, scratch.bends);
+        const glm::dvec4 own = through(data, ray, span, colours, scratch, sight);
         sight.colour = own + (1.0 - own.a) * sight.colour;
     }
     return sight;

@@ -14,6 +14,8 @@ namespace volcast::reference {
 /// Memory that rays reuse; one a thread.
 struct Scratch {
     std::vector<Piece> pieces;
+    std::vector<VoxelPiece> voxelPieces;
+    std::vector<double> walls;
     std::vector<Part> parts;
     std::vector<double> bends;
     std::vector<std::pair<FaceName, std::size_t>> faces;
@@ -62,6 +64,9 @@ private:
                       const Span& span, Scratch& scratch, Hit& hit, Sight& sight) const;
     static void meetLevel(const LayerData& data, const Ray& ray, const Span& span, Scratch& scratch,
                           Hit& hit, Sight& sight);
+    /// What a layer that ends no rays adds; only its shape without `colours`.
+    static glm::dvec4 through(const LayerData& data, const Ray& ray, const Span& span, bool colours,
+                              Scratch& scratch, Sight& sight);
 
     std::span<const scene::ClipPlane> clipPlanes_;
     std::span<const LayerData> layers_;

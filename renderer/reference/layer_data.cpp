@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <utility>
 
 #include "renderer/scene/ray_models.h"
@@ -87,8 +88,11 @@ void scaleNumbers(const scene::ScaleFunction& ofF, const scene::ScaleFunction& o
                   LayerData& data) {
     const scene::Layer& layer = *data.layer;
     data.colour = LinearMap{layer.map, ofF};
-    data.extinction =
-        LinearMap{layer.densityMap.points.empty() ? layer.map : layer.densityMap, ofG};
+    data::TransferFunction density = layer.densityMap.points.empty() ? layer.map : layer.densityMap;
+    if (layer.model == scene::RayModel::kVolume && layer.gain != 0.0F) {
+        for (auto& point : density.points) point.extinction *= std::exp(layer.gain);
+    }
+    data.extinction = LinearMap{density, ofG};
     if (layer.interval) data.interval = scaledRange(*layer.interval, ofF);
     if (layer.model != scene::RayModel::kIsosurface) return;
     for (const float level : scene::resolved(layer.levels)) {
@@ -128,21 +132,73 @@ Result<void> readFields(LayerData& data, const std::string& path) {
     return {};
 }
 
+template <class T>
+void convert(std::span<const std::byte> voxels, const scene::ScaleFunction& scale,
+             std::vector<float>& values) {
+    values.resize(voxels.size() / sizeof(T));
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        T value;
+        std::memcpy(&value, voxels.data() + i * sizeof(T), sizeof(T));
+        values[i] = scale.ofData(static_cast<float>(value));
+    }
+}
+
+void convert(data::VoxelType type, std::span<const std::byte> voxels,
+             const scene::ScaleFunction& scale, std::vector<float>& values) {
+    switch (type) {
+        case data::VoxelType::kU8: return convert<std::uint8_t>(voxels, scale, values);
+        case data::VoxelType::kU16: return convert<std::uint16_t>(voxels, scale, values);
+        case data::VoxelType::kI16: return convert<std::int16_t>(voxels, scale, values);
+        case data::VoxelType::kF32: return convert<float>(voxels, scale, values);
+    }
+}
+
+/// Looks up the channel and scales all that is in its unit.
+Result<void> readVoxels(const data::Volume& volume, LayerData& data, const std::string& path) {
+    const scene::Layer& layer = *data.layer;
+    if (scene::row(layer.model).chunk.empty()) {
+        return fail(ErrorCode::kUnsupported,
+                    path + ".model: the reference has no " + std::string{scene::name(layer.model)} +
+                        " of voxels",
+                    path + ".model");
+    }
+    auto channel = volume.channels.begin();
+    if (!layer.field.empty()) {
+        channel = std::ranges::find(volume.channels, layer.field, &data::Channel::name);
+    }
+    if (channel == volume.channels.end()) {
+        return fail(ErrorCode::kNotFound,
+                    path + ".field: the volume has no channel \"" + layer.field + "\"",
+                    path + ".field");
+    }
+    if (auto valid = scene::validate(layer.scale, channel->range, path + ".scale"); !valid) {
+        return valid;
+    }
+    const scene::ScaleFunction scale{layer.scale, channel->range};
+    scaleNumbers(scale, scale, data);
+    convert(volume.type, channel->voxels.span(), scale, data.voxels);
+    data.grid.emplace(volume, data.voxels, layer.sampling);
+    return {};
+}
+
 }  // namespace
 
-Result<LayerData> prepare(const scene::Layer& layer, const Casters& casters,
+Result<LayerData> prepare(const scene::Layer& layer, const Bodies& bodies,
                           const std::string& path) {
-    const auto caster = casters.find(layer.dataset);
-    if (caster == casters.end() || caster->second == nullptr) {
-        return fail(ErrorCode::kUnsupported,
-                    path + ".dataset: \"" + layer.dataset +
-                        "\" is not among the meshes given; the reference evaluates meshes, not "
-                        "voxel volumes",
+    const auto body = bodies.find(layer.dataset);
+    if (body == bodies.end()) {
+        return fail(ErrorCode::kNotFound,
+                    path + ".dataset: \"" + layer.dataset + "\" is not among the data given",
                     path + ".dataset");
     }
     LayerData data;
     data.layer = &layer;
-    data.caster = caster->second.get();
+    if (body->second.volume != nullptr) {
+        const auto read = readVoxels(*body->second.volume, data, path);
+        if (!read) return read.error();
+        return data;
+    }
+    data.caster = body->second.mesh.get();
     data.twoFields = scene::row(layer.model).secondField && !layer.densityField.empty();
     if (scene::needsField(layer)) {
         if (const auto read = readFields(data, path); !read) return read.error();

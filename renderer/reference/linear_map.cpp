@@ -24,6 +24,15 @@ glm::dvec4 LinearMap::on(std::size_t piece, double value) const {
     return matter_[piece - 1] * (1.0 - share) + matter_[piece] * share;
 }
 
+LinearMap::Line LinearMap::lineOf(std::size_t piece) const {
+    if (piece == 0) return {.offset = matter_.front()};
+    if (piece == values_.size()) return {.offset = matter_.back()};
+    const double low = values_[piece - 1], high = values_[piece];
+    if (!(high > low)) return {.offset = matter_[piece]};
+    const glm::dvec4 slope = (matter_[piece] - matter_[piece - 1]) / (high - low);
+    return {.slope = slope, .offset = matter_[piece - 1] - low * slope};
+}
+
 void LinearMap::addBends(double from, double to, std::vector<double>& shares) const {
     const double low = std::min(from, to), high = std::max(from, to);
     for (auto k = std::ranges::upper_bound(values_, low); k != values_.end() && *k < high; ++k) {

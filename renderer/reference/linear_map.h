@@ -23,6 +23,13 @@ public:
     [[nodiscard]] std::size_t pieceAt(double value) const;
     /// What piece `piece` would have at `value`, clamped to its ends.
     [[nodiscard]] glm::dvec4 on(std::size_t piece, double value) const;
+    /// Piece `piece` as slope * value + offset.
+    struct Line {
+        glm::dvec4 slope{0.0}, offset{0.0};
+    };
+    [[nodiscard]] Line lineOf(std::size_t piece) const;
+    /// Values of the control points, ascending.
+    [[nodiscard]] const std::vector<double>& values() const noexcept { return values_; }
 
     /// Adds the shares in (0, 1) of the way from `from` to `to` at which the map bends or steps.
     void addBends(double from, double to, std::vector<double>& shares) const;

@@ -130,11 +130,11 @@ Result<void> check(const scene::Scene& scene, scene::PictureSize size,
                 "reference: " + std::to_string(threads) + " threads, expected 1 or more");
 }
 
-Result<std::vector<LayerData>> prepareAll(const scene::Scene& scene, const Casters& casters) {
+Result<std::vector<LayerData>> prepareAll(const scene::Scene& scene, const Bodies& bodies) {
     std::vector<LayerData> layers;
     for (std::size_t i = 0; i < scene.layers.size(); ++i) {
         if (!scene.layers[i].visible) continue;
-        auto data = prepare(scene.layers[i], casters, "layers[" + std::to_string(i) + "]");
+        auto data = prepare(scene.layers[i], bodies, "layers[" + std::to_string(i) + "]");
         if (!data) return data.error();
         layers.push_back(std::move(*data));
     }
@@ -143,15 +143,18 @@ Result<std::vector<LayerData>> prepareAll(const scene::Scene& scene, const Caste
 
 }  // namespace
 
-std::shared_ptr<const Caster> makeCaster(const data::Mesh& mesh) {
-    return std::make_shared<const Caster>(mesh);
+Body makeBody(const data::Dataset& dataset) {
+    if (const auto* volume = std::get_if<data::Volume>(&dataset)) {
+        return {.mesh = nullptr, .volume = volume};
+    }
+    return {.mesh = std::make_shared<const Caster>(std::get<data::Mesh>(dataset))};
 }
 
-Result<Picture> draw(const scene::Scene& scene, const Casters& casters, scene::PictureSize size,
+Result<Picture> draw(const scene::Scene& scene, const Bodies& bodies, scene::PictureSize size,
                      std::span<const glm::ivec2> pixels, int threads,
                      const std::atomic<bool>* cancelled) {
     if (auto valid = check(scene, size, pixels, threads); !valid) return valid.error();
-    const auto layers = prepareAll(scene, casters);
+    const auto layers = prepareAll(scene, bodies);
     if (!layers) return layers.error();
     std::vector<glm::ivec2> all;
     if (pixels.empty()) {
@@ -196,11 +199,12 @@ Result<Picture> draw(const scene::Scene& scene,
                      const std::map<std::string, const data::Mesh*>& meshes,
                      scene::PictureSize size, std::span<const glm::ivec2> pixels, int threads,
                      const std::atomic<bool>* cancelled) {
-    Casters casters;
+    Bodies bodies;
     for (const auto& [id, mesh] : meshes) {
-        if (mesh != nullptr) casters.emplace(id, makeCaster(*mesh));
+        if (mesh == nullptr) continue;
+        bodies.emplace(id, Body{.mesh = std::make_shared<const Caster>(*mesh)});
     }
-    return draw(scene, casters, size, pixels, threads, cancelled);
+    return draw(scene, bodies, size, pixels, threads, cancelled);
 }
 
 }  // namespace volcast::reference

@@ -11,7 +11,7 @@
 #include <glm/glm.hpp>
 
 #include "renderer/base/result.h"
-#include "renderer/data/mesh.h"
+#include "renderer/data/dataset.h"
 #include "renderer/scene/scene.h"
 
 /// The integrals of all ray models in double precision on the CPU: what pictures are measured
@@ -33,12 +33,16 @@ struct Picture {
 
 class Caster;
 
-/// Meshes by dataset id, ready for rays; each is built once and read by any number of threads.
-using Casters = std::map<std::string, std::shared_ptr<const Caster>>;
+/// A mesh or a volume, ready for rays; read by any number of threads. Refers to its data, which
+/// must outlive it.
+struct Body {
+    std::shared_ptr<const Caster> mesh;    ///< A tree of boxes, about 30 bytes a cell; or null.
+    const data::Volume* volume = nullptr;  ///< Or null.
+};
+Body makeBody(const data::Dataset& dataset);
 
-/// A tree of boxes over the cells of `mesh`, about 30 bytes a cell. Keeps a reference: `mesh` must
-/// outlive it.
-std::shared_ptr<const Caster> makeCaster(const data::Mesh& mesh);
+/// By dataset id.
+using Bodies = std::map<std::string, Body>;
 
 /// Evaluates `scene` for `pixels`: (column, row) counted from the upper left, through the middle of
 /// each; no pixels: all, row by row. What a layer names in `integrator` and `evaluator`, and the
@@ -47,15 +51,15 @@ std::shared_ptr<const Caster> makeCaster(const data::Mesh& mesh);
 /// `threads` >= 1, the caller's included. `cancelled` may be null; once it is true the call ends
 /// with an error within some rays.
 ///
-/// Errors: those of scene::validate(scene); kUnsupported (a layer's dataset is not among the
-/// meshes: voxel volumes have no reference yet; markers that have no value for each cell),
-/// kNotFound (a field), kInvalidArgument (size, time step, scale, a pixel outside of the picture),
-/// kTimeout (cancelled); `field` as in scene::validate.
-Result<Picture> draw(const scene::Scene& scene, const Casters& casters, scene::PictureSize size,
+/// Errors: those of scene::validate(scene); kUnsupported (a model that voxels do not have, markers
+/// that have no value for each cell), kNotFound (a dataset that is not among the bodies, a field),
+/// kInvalidArgument (size, time step, scale, a pixel outside of the picture), kTimeout
+/// (cancelled); `field` as in scene::validate.
+Result<Picture> draw(const scene::Scene& scene, const Bodies& bodies, scene::PictureSize size,
                      std::span<const glm::ivec2> pixels = {}, int threads = 1,
                      const std::atomic<bool>* cancelled = nullptr);
 
-/// The same for meshes that are drawn once: makes their casters first.
+/// The same for meshes that are drawn once: makes their bodies first.
 Result<Picture> draw(const scene::Scene& scene,
                      const std::map<std::string, const data::Mesh*>& meshes,
                      scene::PictureSize size, std::span<const glm::ivec2> pixels = {},

@@ -143,6 +143,8 @@ LayerBlock layerBlock(PictureSize size, const DepthRange& depths, const Scene& s
     }
     const Light light = layer.light.value_or(Light{});
     block.light = light.position ? vector(*light.position - origin, 1.0) : glm::vec4(0.0F);
+    const std::uint32_t seed = layer.jitter.value_or(0);
+    block.jitter = {seed & 0xFFFFU, seed >> 16U, 0.0F, 0.0F};
     block.reflection = {light.ambient, light.diffuse, light.specular, light.exponent};
     return block;
 }

@@ -1,6 +1,7 @@
 #include "renderer/scene/layer_fields.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "renderer/scene/ray_models.h"
 #include "renderer/scene/scale.h"
@@ -8,11 +9,21 @@
 namespace volcast::scene {
 namespace {
 
+constexpr double kMostExtinction = 1e30;  // Far beyond opaque in any unit; its sums stay finite.
+
 bool readsDensityAlone(const Layer& layer) {
     return layer.model == RayModel::kXray && !layer.densityField.empty() && !layer.interval;
 }
 
 }  // namespace
+
+data::TransferFunction withGain(data::TransferFunction map, float gain) {
+    const double factor = std::exp(static_cast<double>(gain));
+    for (data::ControlPoint& point : map.points) {
+        point.extinction = static_cast<float>(std::min(point.extinction * factor, kMostExtinction));
+    }
+    return map;
+}
 
 const data::FieldSummary* findField(const data::DatasetSummary& summary, const std::string& name) {
     if (summary.fields.empty()) return nullptr;
@@ -43,6 +54,13 @@ LayerMaps layerMaps(const Layer& layer, const data::DatasetSummary& summary) {
     const data::Range none{};
     const ScaleFunction scale{use.scale, use.field == nullptr ? none : use.field->range};
     const bool hasDensityMap = !layer.densityMap.points.empty();
+    if (layer.gain != 0.0F && layer.model == RayModel::kVolume) {
+        Layer gained = layer;
+        gained.gain = 0.0F;
+        for (data::TransferFunction* map : {&gained.map, &gained.densityMap})
+            *map = withGain(*map, layer.gain);
+        return layerMaps(gained, summary);
+    }
     if (!row(layer.model).secondField) return {.main = scaled(layer.map, scale), .density = {}};
     const std::optional<FieldUse> second = secondField(layer, summary);
     if (layer.model == RayModel::kXray && !second) {

@@ -24,6 +24,9 @@ FieldUse mainField(const Layer& layer, const data::DatasetSummary& summary);
 /// g, where its values are not those of the main field.
 std::optional<FieldUse> secondField(const Layer& layer, const data::DatasetSummary& summary);
 
+/// `map` with extinctions times exp(gain).
+data::TransferFunction withGain(data::TransferFunction map, float gain);
+
 /// The maps of both as rays look them up, with scaled values; the second has no points where one
 /// map serves.
 struct LayerMaps {

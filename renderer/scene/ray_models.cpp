@@ -26,28 +26,43 @@ constexpr std::array kExtremeIntegrators{
     IntegratorRow{Integrator::kEnds, "ends", "segment/largest_ends.glsl"},
     IntegratorRow{Integrator::kExact, "exact", "segment/largest_exact.glsl"}};
 
-// name, chunk; opaque, combine, secondField, onMeshes, onVolumes; integrators
+constexpr std::array kVolumeOfVoxels{
+    IntegratorRow{Integrator::kAverage, "average", "segment/average.glsl"},
+    IntegratorRow{Integrator::kPreintegrated, "preintegrated", "segment/preintegrated.glsl"},
+    IntegratorRow{Integrator::kLinearOpacity, "linear_opacity", "segment/linear_opacity.glsl"},
+    IntegratorRow{Integrator::kPsi, "psi", "segment/psi.glsl"},
+    IntegratorRow{Integrator::kExact, "exact", "segment/exact.glsl"},
+    IntegratorRow{Integrator::kAdaptive, "adaptive", "segment/average.glsl"}};
+
+constexpr std::array kLinesOfVoxels{
+    IntegratorRow{Integrator::kFront, "front", "segment/line_front.glsl"},
+    IntegratorRow{Integrator::kEnds, "ends", "segment/line_ends.glsl"},
+    IntegratorRow{Integrator::kExact, "exact", "segment/line_exact.glsl"},
+    IntegratorRow{Integrator::kAdaptive, "adaptive", "segment/line_front.glsl"}};
+
+// name, chunk; opaque, combine, secondField, onMeshes, onVolumes; integrators of meshes and of
+// voxels
 constexpr std::array kRayModels{
     RayModelRow{RayModel::kSurface, "surface", "", true, Combine::kNearest, false, true, false,
-                kNoChoice},
+                kNoChoice, kNoChoice},
     RayModelRow{RayModel::kWireframe, "wireframe", "", true, Combine::kNearest, false, true, false,
-                kNoChoice},
+                kNoChoice, kNoChoice},
     RayModelRow{RayModel::kMip, "mip", "model/mip.glsl", false, Combine::kMax, false, true, true,
-                kNoChoice},
+                kNoChoice, kNoChoice},
     RayModelRow{RayModel::kMinip, "minip", "model/minip.glsl", false, Combine::kMin, false, true,
-                true, kNoChoice},
+                true, kNoChoice, kNoChoice},
     RayModelRow{RayModel::kMipColour, "mip_colour", "model/mip_colour.glsl", false, Combine::kMax,
-                false, true, true, kExtremeIntegrators},
+                false, true, true, kExtremeIntegrators, kExtremeIntegrators},
     RayModelRow{RayModel::kXray, "xray", "model/xray.glsl", false, Combine::kSum, true, true, true,
-                kLineIntegrators},
+                kLineIntegrators, kLinesOfVoxels},
     RayModelRow{RayModel::kSplat, "splat", "model/splat.glsl", false, Combine::kSum, false, true,
-                true, kLineIntegrators},
+                true, kLineIntegrators, kLinesOfVoxels},
     RayModelRow{RayModel::kIsosurface, "isosurface", "model/isosurface.glsl", true,
-                Combine::kNearest, true, true, true, kNoChoice},
+                Combine::kNearest, true, true, true, kNoChoice, kNoChoice},
     RayModelRow{RayModel::kVolume, "volume", "model/volume.glsl", false, Combine::kUnder, true,
-                true, true, kVolumeIntegrators},
+                true, true, kVolumeIntegrators, kVolumeOfVoxels},
     RayModelRow{RayModel::kCrossSections, "cross_sections", "", true, Combine::kNearest, false,
-                false, true, kNoChoice}};
+                false, true, kNoChoice, kNoChoice}};
 
 struct EvaluatorName {
     MeshEvaluator evaluator;
@@ -63,7 +78,8 @@ constexpr std::array<std::string_view, 4> kVoxelEvaluators{"auto", "march", "sli
                                                            "slice_instances"};
 
 constexpr std::array kAllIntegrators{std::span<const IntegratorRow>{kVolumeIntegrators},
-                                     std::span<const IntegratorRow>{kLineIntegrators}};
+                                     std::span<const IntegratorRow>{kLineIntegrators},
+                                     std::span<const IntegratorRow>{kVolumeOfVoxels}};
 
 }  // namespace
 
@@ -134,8 +150,8 @@ std::optional<VoxelEvaluator> voxelEvaluatorNamed(std::string_view name) {
     return static_cast<VoxelEvaluator>(found - kVoxelEvaluators.begin());
 }
 
-const IntegratorRow* integratorRow(RayModel model, Integrator integrator) {
-    const auto rows = row(model).integrators;
+const IntegratorRow* integratorRow(RayModel model, Integrator integrator, bool mesh) {
+    const auto rows = row(model).integratorsOf(mesh);
     const auto found = std::ranges::find(rows, integrator, &IntegratorRow::integrator);
     return found == rows.end() ? nullptr : &*found;
 }
@@ -154,9 +170,9 @@ bool serves(MeshEvaluator evaluator, RayModel model, Integrator integrator) {
     return false;
 }
 
-std::string allowedIntegrators(RayModel model) {
+std::string allowedIntegrators(RayModel model, bool mesh) {
     std::string names = "auto";
-    for (const IntegratorRow& integrator : row(model).integrators) {
+    for (const IntegratorRow& integrator : row(model).integratorsOf(mesh)) {
         names += ", " + std::string{integrator.name};
     }
     return names;

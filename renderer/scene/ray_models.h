@@ -39,6 +39,13 @@ struct RayModelRow {
     bool onMeshes;
     bool onVolumes;
     std::span<const IntegratorRow> integrators;  ///< From cheap to exact; the last is exact.
+    /// The same on voxels, where pieces lie between samples: the first takes each sample as a
+    /// constant piece, the last splits pieces and sets its own steps.
+    std::span<const IntegratorRow> voxelIntegrators;
+
+    [[nodiscard]] std::span<const IntegratorRow> integratorsOf(bool mesh) const {
+        return mesh ? integrators : voxelIntegrators;
+    }
 };
 
 /// All ray models, in the order of RayModel.
@@ -64,13 +71,13 @@ std::optional<MeshEvaluator> evaluatorNamed(std::string_view name);
 std::optional<Sampling> samplingNamed(std::string_view name);
 std::optional<VoxelEvaluator> voxelEvaluatorNamed(std::string_view name);
 
-/// The row of `integrator` among those that serve `model`, or null.
-const IntegratorRow* integratorRow(RayModel model, Integrator integrator);
+/// The row of `integrator` among those that serve `model` on meshes or on voxels, or null.
+const IntegratorRow* integratorRow(RayModel model, Integrator integrator, bool mesh = true);
 /// Whether `evaluator` can draw `model` with `integrator`; kAuto always can.
 bool serves(MeshEvaluator evaluator, RayModel model, Integrator integrator);
 
 /// "average, linear_opacity, ...": for messages.
-std::string allowedIntegrators(RayModel model);
+std::string allowedIntegrators(RayModel model, bool mesh = true);
 std::string allowedModels();
 
 /// The field and map that a ray of `layer` reads: a surface in one colour needs neither.

@@ -10,6 +10,7 @@
 #include "renderer/scene/ray_models.h"
 #include "renderer/scene/scale.h"
 #include "renderer/scene/user_controls.h"
+#include "renderer/scene/validate_sampling.h"
 
 namespace volcast::scene {
 namespace {
@@ -41,7 +42,8 @@ Result<void> validateMap(const data::TransferFunction& map, const std::string& p
 /// What serves what.
 Result<void> validateChoices(const Layer& layer, const std::string& path) {
     if (layer.integrator != Integrator::kAuto &&
-        integratorRow(layer.model, layer.integrator) == nullptr) {
+        integratorRow(layer.model, layer.integrator, true) == nullptr &&
+        integratorRow(layer.model, layer.integrator, false) == nullptr) {
         return fail(ErrorCode::kUnsupported,
                     path + ".integrator: " + std::string{name(layer.integrator)} +
                         " cannot serve the ray model " + std::string{name(layer.model)} +
@@ -111,12 +113,7 @@ Result<void> validateNumbers(const Layer& layer, const std::string& path) {
 }
 
 Result<void> validate(const Layer& layer, const std::string& path) {
-    if (!std::isfinite(layer.stepWorld) || layer.stepWorld < 0.0) {
-        return fail(ErrorCode::kInvalidArgument,
-                    path + ".step_world: " + std::to_string(layer.stepWorld) +
-                        " is not a length of 0 or more",
-                    path + ".step_world");
-    }
+    if (auto valid = validateSampling(layer, path); !valid) return valid;
     if (!finite(layer.surfaceColour)) {
         return fail(ErrorCode::kInvalidArgument, path + ".surface_colour: is not finite",
                     path + ".surface_colour");
@@ -276,6 +273,19 @@ Result<void> validateVolume(const Layer& layer, const std::string& path) {
     return {};
 }
 
+/// An integrator may serve a model on data of one kind alone.
+Result<void> validateIntegrator(const Layer& layer, bool mesh, const std::string& path) {
+    if (layer.integrator == Integrator::kAuto ||
+        integratorRow(layer.model, layer.integrator, mesh) != nullptr) {
+        return {};
+    }
+    return fail(ErrorCode::kUnsupported,
+                path + ".integrator: " + std::string{name(layer.integrator)} + " does not serve " +
+                    std::string{name(layer.model)} + " on " + (mesh ? "meshes" : "voxels") +
+                    "; one of " + allowedIntegrators(layer.model, mesh) + " does",
+                path + ".integrator");
+}
+
 Result<void> validateField(const Layer& layer, const data::DatasetSummary& summary,
                            const std::string& path) {
     if (summary.fields.empty()) {
@@ -371,6 +381,7 @@ Result<void> validate(const Scene& scene, const Summaries& summaries) {
             valid = found->second.isMesh ? validateMesh(layer, found->second, pathOf(i))
                                          : validateVolume(layer, pathOf(i));
         }
+        if (valid) valid = validateIntegrator(layer, found->second.isMesh, pathOf(i));
         if (valid) valid = validateChannels(layer, found->second, pathOf(i));
         if (valid) valid = validateShader(layer, found->second, pathOf(i));
         if (!valid) return valid.error();

@@ -21,29 +21,72 @@ MarchTraits traitsOf(const DrawInputs& inputs) {
             .lit = inputs.plan->has(plan::kGradient),
             .shaded = inputs.plan->has(plan::kLight),
             .interval = inputs.plan->has(plan::kInterval),
+            .jitters = inputs.plan->has(plan::kJitter),
             .clipPlanes = inputs.clipPlanes,
             .field = fieldTraits(inputs)};
 }
 
+namespace {
+
+/// What a ray hands to its model.
+enum class Pieces {
+    kSamples,   ///< Constant pieces, of the samples in the middle of steps.
+    kLines,     ///< From sample to sample.
+    kSplit,     ///< The same, in parts where the map bends.
+    kAdaptive,  ///< Constant pieces of steps that set their own length.
+    kVoxels,    ///< Nearest voxels from wall to wall: constant, so that the cheapest is exact.
+};
+
+Pieces piecesOf(const MarchTraits& traits) {
+    if (scene::row(traits.model).opaque) return Pieces::kLines;
+    const scene::Combine combine = scene::row(traits.model).combine;
+    const bool sums = combine == scene::Combine::kUnder || combine == scene::Combine::kSum;
+    const bool best = traits.integrator == scene::Integrator::kExact ||
+                      traits.integrator == scene::Integrator::kAdaptive;
+    if (!sums || traits.integrator == scene::row(traits.model).voxelIntegrators[0].integrator) {
+        return Pieces::kSamples;
+    }
+    if (best && traits.sampling == scene::Sampling::kNearest) return Pieces::kVoxels;
+    if (traits.integrator == scene::Integrator::kAdaptive) return Pieces::kAdaptive;
+    return best ? Pieces::kSplit : Pieces::kLines;
+}
+
+}  // namespace
+
 shading::Recipe marchRecipe(const MarchTraits& traits, std::vector<shading::Constant> constants) {
     const scene::RayModelRow& row = scene::row(traits.model);
-    const scene::IntegratorRow* integrator = scene::integratorRow(traits.model, traits.integrator);
-    constants.insert(constants.end(), {{"kSampling", static_cast<int>(traits.sampling)},
-                                       {"kTexels", static_cast<int>(traits.texels)},
-                                       {"kFilterInHardware", traits.filterInHardware},
-                                       {"kPieces", row.opaque},
-                                       {"kSkipBricks", traits.skipsBricks},
-                                       {"kForesees", traits.skipsBricks && !traits.interval &&
-                                                         (traits.model == scene::RayModel::kMip ||
-                                                          traits.model == scene::RayModel::kMinip)},
-                                       {"kEarlyStop", traits.earlyStop},
-                                       {"kLit", traits.lit},
-                                       {"kShaded", traits.shaded},
-                                       {"kInterval", traits.interval},
-                                       {"kClipPlanes", traits.clipPlanes},
-                                       {"kClipsAtStart", true},
-                                       {"kTricubicOvershoot", plan::kTricubicOvershoot},
-                                       {"kMaxRaySamples", plan::kMaxRaySamples}});
+    const Pieces pieces = piecesOf(traits);
+    const bool loops = pieces == Pieces::kSplit || pieces == Pieces::kAdaptive;
+    const scene::IntegratorRow* integrator =
+        pieces == Pieces::kVoxels ? row.voxelIntegrators.data()
+                                  : scene::integratorRow(traits.model, traits.integrator, false);
+    constants.insert(constants.end(),
+                     {{"kSampling", static_cast<int>(traits.sampling)},
+                      {"kTexels", static_cast<int>(traits.texels)},
+                      {"kFilterInHardware", traits.filterInHardware},
+                      {"kPieces", pieces == Pieces::kLines || pieces == Pieces::kSplit},
+                      {"kNarrows", row.opaque},
+                      {"kAdaptive", pieces == Pieces::kAdaptive},
+                      {"kByVoxels", pieces == Pieces::kVoxels},
+                      {"kSplits", pieces == Pieces::kSplit},
+                      {"kSumsColour", traits.model == scene::RayModel::kSplat},
+                      {"kSumsExtinction", traits.model == scene::RayModel::kXray},
+                      {"kMaxRayParts", plan::kMaxRayParts},
+                      {"kSkipBricks", traits.skipsBricks},
+                      {"kForesees", traits.skipsBricks && !traits.interval &&
+                                        (traits.model == scene::RayModel::kMip ||
+                                         traits.model == scene::RayModel::kMinip)},
+                      {"kEarlyStop", traits.earlyStop},
+                      {"kLit", traits.lit},
+                      {"kShaded", traits.shaded},
+                      {"kInterval", traits.interval},
+                      {"kJitters", traits.jitters},
+                      {"kClipPlanes", traits.clipPlanes},
+                      {"kClipsAtStart", true},
+                      {"kTricubicOvershoot", plan::kTricubicOvershoot},
+                      {"kRangeBlock", kRangeBlock},
+                      {"kRangeReach", kRangeReach},
+                      {"kMaxRaySamples", loops ? plan::kMaxRayPieces : plan::kMaxRaySamples}});
     std::string segment{integrator == nullptr ? "" : integrator->chunk};
     if (traits.shaded) segment = "segment/average_lit.glsl";
     shading::Recipe recipe{

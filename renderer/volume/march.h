@@ -77,6 +77,7 @@ struct MarchTraits {
     bool lit = false;     ///< Isosurfaces, at their hits.
     bool shaded = false;  ///< Volumes, at their samples.
     bool interval = false;
+    bool jitters = false;  ///< Samples are not in the middle of their steps.
     int clipPlanes = 0;
     FieldTraits field = {};
 };

@@ -1,11 +1,13 @@
 #include "server/commands/accuracy_command.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <memory>
+#include <set>
 #include <utility>
 
 #include <CLI/CLI.hpp>
@@ -61,8 +63,11 @@ std::string commandLine() {
     return line;
 }
 
-void plan(std::vector<Planned>& rows, const scene::Scene& scene, const AccuracyOptions& options) {
-    for (const accuracy::Candidate& candidate : accuracy::candidates(scene)) {
+void plan(std::vector<Planned>& rows, const scene::Scene& scene, const AccuracyOptions& options,
+          const AccuracyRow& common = {}) {
+    std::set<std::string> volumes;
+    if (!common.sampling.empty()) volumes.insert(kRenderDataset);
+    for (const accuracy::Candidate& candidate : accuracy::candidates(scene, volumes)) {
         const scene::Layer& layer = scene.layers[candidate.layer];
         const std::string integrator{scene::name(candidate.integrator)};
         const std::string evaluator{scene::name(candidate.evaluator)};
@@ -72,9 +77,38 @@ void plan(std::vector<Planned>& rows, const scene::Scene& scene, const AccuracyO
         rows.push_back({.row = {.model = std::string{scene::name(layer.model)},
                                 .layer = layer.id,
                                 .integrator = integrator,
-                                .evaluator = evaluator},
+                                .evaluator = evaluator,
+                                .sampling = common.sampling,
+                                .step = common.step},
                         .scene = scene,
                         .candidate = candidate});
+    }
+}
+
+/// Rows of one scene; of voxels for each way to sample them that the options leave open.
+void planAll(std::vector<Planned>& rows, const scene::Scene& scene, const AccuracyOptions& options,
+             const data::DatasetSummary& summary) {
+    if (summary.isMesh) return plan(rows, scene, options);
+    using scene::Sampling;
+    constexpr std::array kSamplings{Sampling::kNearest, Sampling::kTrilinear, Sampling::kTricubic};
+    constexpr std::array kSteps{2.0, 1.0, 0.5, 0.25};  // Smallest spacings.
+    const glm::dvec3 spacing = summary.spacing;
+    const double smallest = std::min({spacing.x, spacing.y, spacing.z});
+    const bool document = !options.scene.sceneFile.empty();
+    const bool stepGiven = document || options.scene.step > 0.0 || options.scene.depthSamples > 0;
+    for (const Sampling sampling : kSamplings) {
+        if (!options.scene.sampling.empty() && name(sampling) != options.scene.sampling) continue;
+        for (const double step : kSteps) {
+            scene::Scene one = scene;
+            for (scene::Layer& layer : one.layers) {
+                if (!document) layer.sampling = sampling;
+                if (!stepGiven) layer.stepWorld = step * smallest;
+            }
+            const std::string named{name(document ? one.layers.front().sampling : sampling)};
+            plan(rows, one, options, {.sampling = named, .step = stepGiven ? 0.0 : step});
+            if (stepGiven) break;
+        }
+        if (document) break;
     }
 }
 
@@ -87,13 +121,14 @@ Result<std::vector<Planned>> plannedRows(const AccuracyOptions& options,
     if (!options.scene.sceneFile.empty()) {
         const auto scene = sceneFor(options.scene, summary);
         if (!scene) return scene.error();
-        plan(rows, *scene, options);
+        planAll(rows, *scene, options, summary);
         return rows;
     }
     std::vector<std::string> models = options.models;
     if (models.empty()) {
         for (const scene::RayModelRow& row : scene::rayModels()) {
-            if (row.onMeshes) models.emplace_back(row.name);
+            const bool drawn = summary.isMesh ? row.onMeshes : row.onVolumes && !row.chunk.empty();
+            if (drawn) models.emplace_back(row.name);
         }
     }
     for (const std::string& model : models) {
@@ -101,7 +136,7 @@ Result<std::vector<Planned>> plannedRows(const AccuracyOptions& options,
         one.model = model;
         const auto scene = sceneFor(one, summary);
         if (scene) {
-            plan(rows, *scene, options);
+            planAll(rows, *scene, options, summary);
         } else if (!options.models.empty()) {
             return scene.error();
         } else {
@@ -118,7 +153,8 @@ Result<void> measure(OfflineRenderer& renderer, std::vector<Planned>& rows,
         Planned& planned = rows[i];
         if (!planned.row.refusal.empty()) continue;
         progress.show(
-            planned.row.model + " " + planned.row.integrator + " " + planned.row.evaluator,
+            planned.row.model + " " + planned.row.integrator + " " +
+                (planned.row.sampling.empty() ? planned.row.evaluator : planned.row.sampling),
             static_cast<double>(i) / static_cast<double>(rows.size()));
         auto measured = renderer.measure({.scene = planned.scene,
                                           .size = {options.scene.size[0], options.scene.size[1]},
@@ -156,15 +192,16 @@ Result<void> checkFiles(const AccuracyOptions& options) {
     return {};
 }
 
+std::uint64_t voxelsOf(const data::DatasetSummary& summary) {
+    const glm::ivec3 size = summary.voxels;
+    return static_cast<std::uint64_t>(size.x) * size.y * size.z;
+}
+
 Result<void> measureAll(const AccuracyOptions& options) {
     if (auto writable = checkFiles(options); !writable) return writable;
     Progress progress;
     auto data = importFor(options.scene, progress);
     if (!data) return std::move(data).error();
-    if (!data->summary.isMesh) {
-        return fail(ErrorCode::kUnsupported,
-                    options.scene.dataset + ": voxel volumes have no reference to measure against");
-    }
     auto rows = plannedRows(options, data->summary);
     if (!rows) return std::move(rows).error();
     if (rows->empty()) {
@@ -178,17 +215,18 @@ Result<void> measureAll(const AccuracyOptions& options) {
 
     AccuracyRun run{.command = commandLine(),
                     .data = std::filesystem::path{options.scene.dataset}.filename().string(),
-                    .cells = data->summary.cells,
+                    .cells = data->summary.isMesh ? data->summary.cells : voxelsOf(data->summary),
+                    .unit = data->summary.isMesh ? "cells" : "voxels",
                     .size = {options.scene.size[0], options.scene.size[1]},
                     .frames = options.frames,
                     .gl = renderer->service().status().glRenderer,
                     .rows = {}};
     for (Planned& planned : *rows) run.rows.push_back(std::move(planned.row));
     markFronts(run.rows);
-    std::printf("%s: %llu cells, %d x %d pixels, %d frames each, %s\n%s%s\n%s\n", run.data.c_str(),
-                static_cast<unsigned long long>(run.cells), run.size.x, run.size.y, run.frames,
-                run.gl.c_str(), tableOf(run).c_str(), referenceLineOf(run).c_str(),
-                run.command.c_str());
+    std::printf("%s: %llu %s, %d x %d pixels, %d frames each, %s\n%s%s\n%s\n", run.data.c_str(),
+                static_cast<unsigned long long>(run.cells), run.unit.c_str(), run.size.x,
+                run.size.y, run.frames, run.gl.c_str(), tableOf(run).c_str(),
+                referenceLineOf(run).c_str(), run.command.c_str());
     return write(run, options);
 }
 
@@ -213,6 +251,10 @@ void addAccuracyCommand(CLI::App& app, int& exitCode) {
         "one\n"
         "more part of a split piece, the search for entries where a mesh is not convex); cells\n"
         "drawn are the projection's: of isosurfaces one for each level that a cell meets.\n"
+        "Voxels are drawn with each sampling and with steps of 2 to 1/4 of the smallest spacing, "
+        "but\n"
+        "for what --sampling, --step or --depth-samples say; each sampling has a reference of its "
+        "own.\n"
         "Exit code: 0 done, 1 failed, 2 wrong options.");
     addOptions(*command, *options);
     command->callback([options, &exitCode] { exitCode = run(*options); });

@@ -25,7 +25,8 @@ constexpr std::array kColours{
     Colour{"average", "#E69F00"},       Colour{"linear_opacity", "#56B4E9"},
     Colour{"psi_table", "#B8A800"},     Colour{"psi", "#0072B2"},
     Colour{"preintegrated", "#CC79A7"}, Colour{"exact", "#000000"},
-    Colour{"front", "#D55E00"},         Colour{"ends", "#009E73"}};
+    Colour{"front", "#D55E00"},         Colour{"ends", "#009E73"},
+    Colour{"adaptive", "#8B1A1A"}};
 
 struct Shape {
     const char* evaluator;
@@ -125,7 +126,8 @@ std::vector<Panel> panelsOf(const AccuracyRun& run) {
     std::vector<Panel> panels;
     for (const AccuracyRow& row : run.rows) {
         if (!row.measured) continue;
-        const std::string title = row.model + (severalLayers ? " (" + row.layer + ")" : "");
+        const std::string title = row.model + (severalLayers ? " (" + row.layer + ")" : "") +
+                                  (row.sampling.empty() ? "" : ", " + row.sampling);
         if (panels.empty() || panels.back().title != title) panels.push_back({title, {}});
         panels.back().rows.push_back(&row);
     }
@@ -191,8 +193,9 @@ private:
         out_ += label(16.0, 22.0, "start", "What accuracy costs: " + run_.data,
                       " font-size=\"16\" font-weight=\"bold\"");
         out_ += label(16.0, 42.0, "start",
-                      std::to_string(run_.cells) + " cells, " + std::to_string(run_.size.x) +
-                          " x " + std::to_string(run_.size.y) + " pixels, " + run_.gl);
+                      std::to_string(run_.cells) + " " + run_.unit + ", " +
+                          std::to_string(run_.size.x) + " x " + std::to_string(run_.size.y) +
+                          " pixels, " + run_.gl);
     }
 
     void panel(const Panel& panel, double x, double y) {
@@ -204,8 +207,9 @@ private:
         front(panel, time, error);
         for (const AccuracyRow* row : panel.rows) {
             out_ += "<g><title>" +
-                    escaped(row->integrator + ", " + row->evaluator + ": " +
-                            general(row->measured->medianMs) + " ms, rms error " +
+                    escaped(row->integrator + ", " +
+                            (row->step > 0.0 ? "step " + general(row->step) : row->evaluator) +
+                            ": " + general(row->measured->medianMs) + " ms, rms error " +
                             general(errorOf(*row))) +
                     "</title>" +
                     mark(time.at(row->measured->medianMs), error.at(errorOf(*row)), row->evaluator,
@@ -279,7 +283,7 @@ private:
             if (!occurs(&AccuracyRow::evaluator, shape.evaluator)) continue;
             const std::string name = shape.evaluator;
             out_ += mark(x, y - 4.0, name, "", false);
-            out_ += label(x + 10.0, y, "start", name == "auto" ? "triangles" : name);
+            out_ += label(x + 10.0, y, "start", name == "auto" ? "triangles, voxels" : name);
             x += 44.0 + 7.0 * static_cast<double>(std::max<std::size_t>(name.size(), 8));
         }
         out_ += line(x, y - 4.0, x + 24.0, y - 4.0, "front");

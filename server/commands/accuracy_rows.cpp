@@ -45,8 +45,14 @@ bool beats(const AccuracyRow& a, const AccuracyRow& b) {
     return noWorse && better;
 }
 
+/// What brings rays and data together.
+std::string wayOf(const AccuracyRow& row) {
+    if (row.sampling.empty()) return row.evaluator;
+    return row.sampling + (row.step > 0.0 ? text(", step %g", row.step) : std::string{});
+}
+
 Cells cellsOf(const AccuracyRow& row, const AccuracyRun& run) {
-    Cells cells{row.onFront ? "*" : "", row.model, row.integrator, row.evaluator};
+    Cells cells{row.onFront ? "*" : "", row.model, row.integrator, wayOf(row)};
     if (!row.measured) return cells;
     const accuracy::Measurement& m = *row.measured;
     for (const double error : {m.all.max, m.all.rms}) cells.push_back(text("%.2e", error));
@@ -98,6 +104,8 @@ json::object jsonOf(const AccuracyRow& row) {
                         {"layer", row.layer},
                         {"integrator", row.integrator},
                         {"evaluator", row.evaluator}};
+    if (!row.sampling.empty()) object["sampling"] = row.sampling;
+    if (row.step > 0.0) object["step_spacings"] = row.step;
     if (!row.measured) {
         object["refusal"] = row.refusal;
         return object;
@@ -135,7 +143,8 @@ void markFronts(std::vector<AccuracyRow>& rows) {
         row.onFront = row.measured.has_value() &&
                       std::ranges::none_of(rows, [&row](const AccuracyRow& other) {
                           return other.measured.has_value() && other.model == row.model &&
-                                 other.layer == row.layer && beats(other, row);
+                                 other.layer == row.layer && other.sampling == row.sampling &&
+                                 beats(other, row);
                       });
     }
 }
@@ -150,7 +159,7 @@ std::string tableOf(const AccuracyRun& run) {
     std::string out = align(table, 4);
     for (const AccuracyRow& row : run.rows) {
         if (row.measured) continue;
-        out += row.model + " " + row.integrator + " " + row.evaluator + ": " + row.refusal + "\n";
+        out += row.model + " " + row.integrator + " " + wayOf(row) + ": " + row.refusal + "\n";
     }
     return out;
 }
@@ -159,7 +168,7 @@ json::object jsonOf(const AccuracyRun& run) {
     json::array rows;
     for (const AccuracyRow& row : run.rows) rows.push_back(jsonOf(row));
     json::object all{{"command", run.command}, {"data", run.data},
-                     {"cells", run.cells},     {"size", {run.size.x, run.size.y}},
+                     {run.unit, run.cells},    {"size", {run.size.x, run.size.y}},
                      {"frames", run.frames},   {"gl", run.gl},
                      {"rows", std::move(rows)}};
     const accuracy::ReferenceEffort effort = effortOf(run);

@@ -13,6 +13,8 @@ namespace volcast::commands {
 /// One way to draw one layer, and what it is worth.
 struct AccuracyRow {
     std::string model = {}, layer = {}, integrator = {}, evaluator = {};  ///< As in the registry.
+    std::string sampling = {};                                            ///< Of voxels.
+    double step = 0.0;  ///< Of voxels, in smallest spacings; 0: as the options say.
     std::optional<accuracy::Measurement> measured = {};
     std::string refusal = {};  ///< Why nothing was measured.
     bool onFront = false;
@@ -23,6 +25,7 @@ struct AccuracyRun {
     std::string command;  ///< That repeats it.
     std::string data;
     std::uint64_t cells = 0;
+    std::string unit = "cells";  ///< What they are.
     scene::PictureSize size{0};
     int frames = 0;
     std::string gl;

@@ -146,7 +146,8 @@ Result<void> setEvaluation(scene::Layer& layer, const SceneOptions& options) {
         layer.integrator = *scene::integratorNamed(options.integrator);
     }
     if (layer.integrator != scene::Integrator::kAuto &&
-        scene::integratorRow(layer.model, layer.integrator) == nullptr) {
+        scene::integratorRow(layer.model, layer.integrator, true) == nullptr &&
+        scene::integratorRow(layer.model, layer.integrator, false) == nullptr) {
         return fail(ErrorCode::kUnsupported,
                     "--integrator: " + options.integrator + " cannot serve --model " +
                         std::string{scene::name(layer.model)} + "; one of " +
@@ -156,6 +157,9 @@ Result<void> setEvaluation(scene::Layer& layer, const SceneOptions& options) {
     if (!options.voxelEvaluator.empty()) {
         layer.voxelEvaluator = *scene::voxelEvaluatorNamed(options.voxelEvaluator);
     }
+    layer.depthSamples = options.depthSamples;
+    layer.gain = options.gain;
+    layer.jitter = options.jitter;
     if (!options.sampling.empty()) layer.sampling = *scene::samplingNamed(options.sampling);
     return {};
 }

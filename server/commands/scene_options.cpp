@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 
 #include "renderer/scene/ray_models.h"
+#include "renderer/scene/validate_sampling.h"
 #include "server/workers/render_service.h"
 
 namespace volcast::commands {
@@ -34,9 +35,11 @@ std::vector<std::string> modelNames() {
 std::vector<std::string> integratorNames() {
     std::vector<std::string> names{"auto"};
     for (const scene::RayModelRow& row : scene::rayModels()) {
-        for (const scene::IntegratorRow& integrator : row.integrators) {
-            if (std::ranges::count(names, integrator.name) == 0) {
-                names.emplace_back(integrator.name);
+        for (const auto rows : {row.integrators, row.voxelIntegrators}) {
+            for (const scene::IntegratorRow& integrator : rows) {
+                if (std::ranges::count(names, integrator.name) == 0) {
+                    names.emplace_back(integrator.name);
+                }
             }
         }
     }
@@ -181,8 +184,19 @@ void addLight(Group group, SceneOptions& o) {
 }
 
 void addEvaluation(Group group, SceneOptions& o) {
-    group.add("--step", o.step, "Sampling distance in voxels' world units; 0: half a voxel")
-        ->check(finite() & CLI::NonNegativeNumber);
+    auto* step =
+        group.add("--step", o.step, "Sampling distance in voxels' world units; 0: half a voxel")
+            ->check(finite() & CLI::NonNegativeNumber);
+    group
+        .add("--depth-samples", o.depthSamples,
+             "Samples over the depth that a volume of voxels reaches along the view; none: by "
+             "--step")
+        ->check(CLI::Range(1, scene::kMaxDepthSamples))
+        ->excludes(step);
+    group.add("--gain", o.gain, "A volume's extinction is multiplied by e to this; -10 to 10")
+        ->check(finite() & CLI::Range(-scene::kMaxGain, scene::kMaxGain));
+    group.add("--jitter", o.jitter,
+              "Seed that moves each pixel's samples of voxels within their steps; none: not moved");
     group.add("--sampling", o.sampling, "Between voxels: trilinear, tricubic or nearest")
         ->check(CLI::IsMember({"trilinear", "tricubic", "nearest"}));
     group

@@ -30,7 +30,10 @@ struct SceneOptions {
     std::vector<double> sectionPoint;   ///< World; empty: the middle.
     std::vector<std::string> sections;  ///< Those shown; empty: all.
     int timeStep = 0;
-    double step = 0.0;  ///< World units; 0: half the smallest spacing.
+    double step = 0.0;     ///< World units; 0: half the smallest spacing.
+    int depthSamples = 0;  ///< 0: as `step` says.
+    float gain = 0.0F;
+    std::optional<std::uint32_t> jitter = {};
     ScaleOptions scale;
     std::string densityField, densityMap;
     ScaleOptions densityScale;

@@ -1,5 +1,8 @@
 // What a session tells of how its views are drawn: plans, what accuracy costs, controls of code.
+#include <set>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "server/session/explain.h"
 #include "server/session/session.h"
@@ -41,7 +44,13 @@ void Session::measureAccuracy(const v1::MeasureAccuracy& message) {
         return refuseWith(v1::ERROR_CODE_NOT_FOUND, "has no picture yet that could be measured");
     }
     stopMeasuring(*view, "measured anew");
-    view->accuracy.start(*scene, view->scene.size(), message.max_pixels());
+    std::set<std::string> volumes;
+    std::vector<std::string> ids;
+    for (const scene::Layer& layer : scene->layers) ids.push_back(layer.dataset);
+    for (const auto& [id, summary] : shared_.catalogue.summaries(ids)) {
+        if (!summary.isMesh) volumes.insert(id);
+    }
+    view->accuracy.start(*scene, view->scene.size(), message.max_pixels(), volumes);
     if (!view->accuracy.running()) {
         return refuseWith(v1::ERROR_CODE_UNSUPPORTED, "has no visible layer to measure");
     }

@@ -25,11 +25,12 @@ void put(const accuracy::Measurement& found, v1::AccuracyRow& row) {
 
 }  // namespace
 
-void ViewAccuracy::start(const scene::Scene& scene, scene::PictureSize size, std::uint64_t pixels) {
+void ViewAccuracy::start(const scene::Scene& scene, scene::PictureSize size, std::uint64_t pixels,
+                         const std::set<std::string>& volumes) {
     scene_ = scene;
     size_ = size;
     pixels_ = pixels == 0 ? kUsualPixels : std::min(pixels, kMostPixels);
-    candidates_ = accuracy::candidates(scene);
+    candidates_ = accuracy::candidates(scene, volumes);
     rows_.clear();
     ++tag_;
     running_ = !candidates_.empty();

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -19,7 +20,9 @@ public:
     static constexpr int kFrames = 3;  ///< Timed, for each candidate.
 
     /// Begins anew with all candidates of `scene`.
-    void start(const scene::Scene& scene, scene::PictureSize size, std::uint64_t pixels);
+    /// `volumes`: ids of its datasets that are voxels.
+    void start(const scene::Scene& scene, scene::PictureSize size, std::uint64_t pixels,
+               const std::set<std::string>& volumes);
     [[nodiscard]] bool running() const noexcept { return running_; }
     /// The job to measure now; needs running(). `tag` comes back with its result.
     [[nodiscard]] accuracy::Job job(std::uint64_t& tag) const;

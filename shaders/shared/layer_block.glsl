@@ -26,4 +26,5 @@ struct LayerBlock {
     vec4 light;              // data space: its place; w: 1, or 0 where it is at the eye
     vec4 sections;           // cross-sections: grid coordinates of where they meet; w: bit i: the one across axis i is shown
     vec4 reflection;         // of it: ambient, diffuse, specular, exponent
+    vec4 jitter;             // voxels: x, y: lower and upper 16 bits of the seed
 };

@@ -3,19 +3,21 @@
 // from the first to the last.
 //
 // A step's piece is constant, of the value in its middle; where kPieces it runs from the value at
-// its front end to that at its back. A piece that ends the ray is then halved kHalvings times, so
-// that the hit is less than dt / 2^kHalvings from a point where the field has the level's value: it
-// is on different sides at both ends of what is left. A line through these ends gives the hit. A
-// field that crosses a level and comes back within one step is not seen to do so.
-// Constants: kPieces, kForesees: the model is told all ranges first; kSkipBricks, kEarlyStop, kMaxRaySamples, kBrickSize, kTricubicOvershoot;
+// its front end to that at its back (volume/pieces.glsl). Where kNarrows a piece that ends the ray is
+// then halved kHalvings times, so that the hit is less than dt / 2^kHalvings from a point where the
+// field has the level's value: it is on different sides at both ends of what is left. A line through
+// these ends gives the hit. A field that crosses a level and comes back within one step is not seen to
+// do so. Where kAdaptive steps are no longer equal, where kByVoxels pieces are those of voxels.
+// Constants: kPieces, kNarrows, kAdaptive, kByVoxels; kJitters: samples are not in the middle;
+// kForesees: the model is told all ranges first; kSkipBricks, kEarlyStop, kMaxRaySamples;
 // kInterval: only values in an interval count; kLit: levels are lit from the eye; kShaded: samples are by layer.light;
 // those of lib/window.glsl and volume/voxels.glsl.
 // Uses: classify through the model; segment through the model.
 #include "lib/box.glsl"
+#include "lib/jitter.glsl"
 #include "lib/light.glsl"
 #include "lib/window.glsl"
 #include "volume/voxels.glsl"
-
 
 const int kHalvings = 8;
 
@@ -45,9 +47,13 @@ Segment sampledPiece(float front, float back, float extent, float distance) {
     return Segment(front, back, front, back, extent, distance);
 }
 
-// Where step `i` belongs: its front end or its middle.
+// Where the samples of a ray are in their steps.
+uint jitterSeed = uint(layer.jitter.x) | uint(layer.jitter.y) << 16u;
+float share = kJitters ? shareOf(uvec2(gl_FragCoord.xy), jitterSeed) : 0.5;
+
+// Where step `i` belongs: its front end or its sample.
 float placeOf(int i) {
-    return kPieces ? float(i) : float(i) + 0.5;
+    return kPieces ? float(i) : float(i) + share;
 }
 
 #include "volume/ranges.glsl"
@@ -57,17 +63,25 @@ bool skipsRange(RayState state, vec2 range) {
     return (kInterval && range.x > range.y) || skipsBetween(state, range.x, range.y);
 }
 
+// What the light adds to matter at a distance; where there is none it is not looked for.
+vec2 lightAt(Ray ray, March march, float at, vec4 matter) {
+    if (!kShaded || matter.a <= 0.0) return vec2(1.0, 0.0);
+    return lightOn(normalAt(positionAt(march, at)), ray.origin + at * ray.direction, -ray.direction);
+}
+
+#include "volume/pieces.glsl"
+
 // Takes step `i`; `value` is that of the step before, then that of this one. True: nothing behind
 // can show.
 bool takeStep(inout RayState state, inout float value, Ray ray, March march, int i) {
     float front = value;
     float at = distanceOf(march, kPieces ? float(i + 1) : placeOf(i));
     value = valueAt(positionAt(march, at));
-    if (kInterval && (value < layer.gather.z || value > layer.gather.w)) return false;
-    if (kShaded && matterAt(value, value).a > 0.0) {
-        pieceLight = lightOn(normalAt(positionAt(march, at)), ray.origin + at * ray.direction,
-                             -ray.direction);
+    if (kPieces && !kNarrows) {
+        return takePiece(state, sampledPiece(front, value, march.dt, distanceOf(march, float(i))));
     }
+    if (kInterval && (value < layer.gather.z || value > layer.gather.w)) return false;
+    if (kShaded) pieceLight = lightAt(ray, march, at, matterAt(value, value));
     Segment piece = sampledPiece(kPieces ? front : value, value, march.dt, distanceOf(march, float(i)));
     return stepRay(state, piece) && kEarlyStop;
 }
@@ -110,6 +124,9 @@ bool takeSteps(inout RayState state, inout float value, Ray ray, March march, in
     return finished;
 }
 
+#include "volume/march_adaptive.glsl"
+#include "volume/march_voxels.glsl"
+
 // Steps that are looked at together: no more than lie within kRangeReach of their middle, and at
 // least one. Equal for all steps of a ray and nearly so for all rays, so that they stay side by side.
 int stepsTogether(March march) {
@@ -131,6 +148,8 @@ void foreseeAll(inout RayState state, March march, int together) {
 }
 
 RayState marched(Ray ray, March march) {
+    if (kAdaptive) return marchedAdaptively(ray, march);
+    if (kByVoxels) return marchedByVoxels(ray, march);
     RayState state = beginRay(ray);
     float value = kPieces ? valueAfter(march, 0.0) : 0.0;
     if (kPieces) enterData(state, sampledPiece(value, value, 0.0, march.begin));
@@ -147,11 +166,14 @@ RayState marched(Ray ray, March march) {
         if (skips && skipsRange(state, rangeOfSteps(march, i, together))) {
             i = beyond;
             if (kPieces) value = valueAfter(march, float(i));
+            if (kPieces && !kNarrows) {
+                enterData(state, sampledPiece(value, value, 0.0, distanceOf(march, float(i))));
+            }
         } else {
             finished = takeSteps(state, value, ray, march, i, beyond);
         }
     }
-    if (kPieces && finished) narrow(state, march, i - 1, value);
+    if (kNarrows && finished) narrow(state, march, i - 1, value);
     return state;
 }
 

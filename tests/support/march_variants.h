@@ -13,7 +13,8 @@ inline volume::MarchTraits marchTraits(const scene::RayModelRow& row, int varian
     const auto bit = [variant](int i) { return (variant >> i & 1) != 0; };
     const bool first = bit(0) != bit(2);
     return {.model = row.model,
-            .integrator = (first ? row.integrators.front() : row.integrators.back()).integrator,
+            .integrator =
+                row.voxelIntegrators[first ? 0 : variant % row.voxelIntegrators.size()].integrator,
             .sampling = static_cast<scene::Sampling>(variant % 3),
             .texels = static_cast<volume::VoxelTexels>(variant / 3 % 4),
             .filterInHardware = bit(3),
@@ -22,6 +23,7 @@ inline volume::MarchTraits marchTraits(const scene::RayModelRow& row, int varian
             .lit = bit(4) && row.model == scene::RayModel::kIsosurface,
             .shaded = bit(2) && row.model == scene::RayModel::kVolume,
             .interval = bit(4) != bit(1),
+            .jitters = first && bit(3),
             .clipPlanes = bit(3) != bit(2) ? 2 : 0};
 }
 

@@ -57,6 +57,7 @@ TEST(AccuracyCommand, MeasuresEveryModelWithAllThatServesIt) {
     EXPECT_GT(reference.at("tree_ms").to_number<double>(), 0.0);
     EXPECT_NE(run.out.find("reference: "), std::string::npos);
     for (const scene::RayModelRow& model : scene::rayModels()) {
+        if (!model.onMeshes) continue;
         EXPECT_EQ(integrators[std::string{model.name}].size(), model.integrators.size())
             << model.name;
     }
@@ -100,6 +101,30 @@ TEST(AccuracyCommand, ExactIsNeverWorseThanTheOthers) {
     }
 }
 
+TEST(AccuracyCommand, MeasuresVoxelsWithEverySamplingAndStep) {
+    const Folder folder;
+    const Outcome run = runVolcast({"accuracy", "demo:volume", "--size", "24", "20", "--frames",
+                                    "1", "--model", "volume", "--model", "mip", "--json",
+                                    folder.file("a.json"), "--svg", folder.file("a.svg")});
+    ASSERT_EQ(run.exitCode, 0) << run.err;
+    const json::value all = json::parse(contentOf(folder.file("a.json")));
+    const json::array& rows = all.at("rows").as_array();
+    const std::size_t ways = scene::row(scene::RayModel::kVolume).voxelIntegrators.size() + 1;
+    EXPECT_EQ(rows.size(), 3 * 4 * ways);
+    std::map<std::string, double> best, cheapest;
+    for (const json::value& value : rows) {
+        const json::object& row = value.as_object();
+        ASSERT_TRUE(row.contains("error")) << json::serialize(row);
+        if (row.at("step_spacings").to_number<double>() != 0.5) continue;
+        if (textOf(row, "integrator") == "adaptive") best[textOf(row, "sampling")] = rmsOf(row);
+        if (textOf(row, "integrator") == "average") cheapest[textOf(row, "sampling")] = rmsOf(row);
+    }
+    ASSERT_EQ(best.size(), 3U);
+    for (const auto& [sampling, rms] : best) EXPECT_LT(rms, cheapest[sampling]) << sampling;
+    EXPECT_NE(run.out.find("trilinear, step 0.5"), std::string::npos) << run.out;
+    EXPECT_NE(contentOf(folder.file("a.svg")).find("volume, tricubic"), std::string::npos);
+}
+
 TEST(AccuracyCommand, TakesASampleOfPixelsAndLayersOfADocument) {
     const Folder folder;
     const std::string scene = folder.write("scene.json", R"({
@@ -126,7 +151,7 @@ struct Wrong {
 
 TEST(AccuracyCommand, RefusesWhatCannotBeMeasured) {
     for (const Wrong& wrong : std::vector<Wrong>{
-             {{"accuracy", "demo:volume"}, 1, "voxel volumes"},
+             {{"accuracy", "demo:volume", "--model", "surface"}, 1, "surface"},
              {{"accuracy", "demo:mesh", "--model", "surface", "--integrator", "psi"}, 1, "serves"},
              {{"accuracy", "demo:mesh", "--json", "/nowhere/a.json"}, 1, "/nowhere/a.json"},
              {{"accuracy", "demo:mesh", "--model", "volume", "--field", "nothing"}, 1, "it has"},

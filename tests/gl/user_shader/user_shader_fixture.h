@@ -45,7 +45,8 @@ protected:
         input.size = {9, 9, 5};
         input.type = type;
         for (int c = 0; c < channels; ++c) {
-            const std::vector<T> values(std::size_t{9} * 9 * 5, static_cast<T>(base + static_cast<T>(c)));
+            const std::vector<T> values(std::size_t{9} * 9 * 5,
+                                        static_cast<T>(base + static_cast<T>(c)));
             data::ChannelInput channel{.name = "c" + std::to_string(c), .unit = "", .voxels = {}};
             const auto bytes = std::as_bytes(std::span{values});
             channel.voxels.assign(bytes.begin(), bytes.end());

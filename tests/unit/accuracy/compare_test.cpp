@@ -91,6 +91,11 @@ TEST(Candidates, AreAllThatTheRegistryHasForVisibleLayers) {
     EXPECT_EQ(found.back(), (Candidate{.layer = 2,
                                        .integrator = scene::Integrator::kExact,
                                        .evaluator = scene::MeshEvaluator::kProjection}));
+    // Of voxels xray has four integrators of its own.
+    scene.layers[2].dataset = "voxels";
+    const std::vector<Candidate> more = candidates(scene, {"voxels"});
+    ASSERT_EQ(more.size(), 5U);
+    EXPECT_EQ(more.back(), (Candidate{.layer = 2, .integrator = scene::Integrator::kAdaptive}));
 }
 
 }  // namespace

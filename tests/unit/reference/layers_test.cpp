@@ -212,7 +212,7 @@ TEST(Refusals, NameWhatIsWrong) {
     };
     auto scene = sceneOf(along(kEye, kCenter), {layerOf(RayModel::kVolume, ramp())});
     scene.layers[0].dataset = "voxels";
-    EXPECT_EQ(codeOf(scene, "layers[0].dataset"), ErrorCode::kUnsupported);
+    EXPECT_EQ(codeOf(scene, "layers[0].dataset"), ErrorCode::kNotFound);
     scene.layers[0].dataset = "mesh";
     scene.layers[0].field = "h";
     EXPECT_EQ(codeOf(scene, "layers[0].field"), ErrorCode::kNotFound);

@@ -140,7 +140,8 @@ TEST(Properties, PixelsAndThreadsChangeNothing) {
     const auto scene = sceneOf(
         cameraAt(), {layerOf(RayModel::kVolume, ramp(3.0F)), layerOf(RayModel::kMip, ramp(3.0F))});
     const Picture whole = drawn(scene, mesh, kSize);
-    const auto threaded = draw(scene, Casters{{"mesh", makeCaster(mesh)}}, kSize, {}, 3);
+    const data::Dataset dataset{built(tunnel())};
+    const auto threaded = draw(scene, Bodies{{"mesh", makeBody(dataset)}}, kSize, {}, 3);
     ASSERT_TRUE(threaded.has_value());
     EXPECT_EQ(whole.pixels, threaded->pixels);
     EXPECT_EQ(whole.nearEdge, threaded->nearEdge);

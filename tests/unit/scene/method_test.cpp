@@ -15,7 +15,8 @@ using ::testing::HasSubstr;
 class Choice : public ::testing::Test {
 protected:
     [[nodiscard]] Method choose(Accuracy::Kind kind, double bound = 0.0) const {
-        return chooseMethod(layer_, {.kind = kind, .bound = bound}, constant_, evidence_);
+        return chooseMethod(layer_, scene::row(layer_.model).integrators,
+                            {.kind = kind, .bound = bound}, constant_, evidence_);
     }
 
     scene::Layer layer_;  // A volume.

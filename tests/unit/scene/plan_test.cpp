@@ -2,6 +2,8 @@
 // tested where pictures are drawn (tests/gl).
 #include "renderer/plan/plan.h"
 
+#include <cmath>
+
 #include "gtest/gtest.h"
 
 #include "renderer/plan/effects.h"
@@ -104,6 +106,55 @@ TEST_F(Plan, SamplesOfVoxelsTakeTheCheapestWayThatIsRight) {
     EXPECT_EQ(planned().method, scene::Integrator::kExact);
     layer_.sampling = scene::Sampling::kNearest;
     EXPECT_EQ(planned().method, scene::Integrator::kEnds);
+}
+
+TEST_F(Plan, VoxelsAreIntegratedAsAskedFor) {
+    EXPECT_EQ(planned().integrator, "average");
+    layer_.integrator = scene::Integrator::kPsi;
+    EXPECT_EQ(planned().integrator, "psi");
+    layer_.light.emplace();  // On samples.
+    EXPECT_EQ(planned().integrator, "average");
+    layer_.integrator = scene::Integrator::kAdaptive;
+    EXPECT_EQ(planned().integrator, "adaptive");
+    layer_.light.reset();
+    layer_.integrator = scene::Integrator::kAuto;
+    scene_.accuracy.kind = scene::Accuracy::Kind::kExact;
+    EXPECT_EQ(planned().integrator, "adaptive");
+    scene_.accuracy.kind = scene::Accuracy::Kind::kFastest;
+    EXPECT_EQ(planned().integrator, "average");
+    layer_.model = RayModel::kMip;
+    EXPECT_EQ(planned().integrator, "march");
+}
+
+TEST_F(Plan, DepthSamplesAreSpreadOverTheDepthAlongTheView) {
+    layer_.depthSamples = 100;
+    scene_.camera = {.eye = {0.5, 0.5, 5.0}, .center = {0.5, 0.5, 0.5}};
+    EXPECT_NEAR(planned().stepWorld, 1.0 / 100, 1e-15);
+    scene_.camera.eye = {5.5, 5.5, 5.5};
+    EXPECT_NEAR(planned().stepWorld, std::sqrt(3.0) / 100, 1e-15);
+}
+
+// All loops of a pixel have 65,535 rounds.
+TEST_F(Plan, StepsLeaveRoomForTheLoopsOfAllPixels) {
+    layer_.stepWorld = 1e-9;
+    const double longest = std::sqrt(3.0);
+    EXPECT_NEAR(planned().stepWorld, longest / kMaxRaySamples, 1e-12);
+    layer_.integrator = scene::Integrator::kExact;
+    EXPECT_NEAR(planned().stepWorld, longest / kMaxRayPieces, 1e-12);
+    EXPECT_LE(kMaxRayPieces + kMaxRayParts, 65'535 - 16 * 256);
+    layer_.integrator = scene::Integrator::kAdaptive;
+    EXPECT_TRUE(planned().has(kStepEnlarged));
+}
+
+TEST_F(Plan, JitterMovesSamplesThatStandForSteps) {
+    EXPECT_FALSE(planned().has(kJitter));
+    layer_.jitter = 3;
+    EXPECT_TRUE(planned().has(kJitter));
+    layer_.integrator = scene::Integrator::kPreintegrated;
+    EXPECT_FALSE(planned().has(kJitter));
+    layer_.integrator = scene::Integrator::kAuto;
+    layer_.model = RayModel::kIsosurface;
+    EXPECT_FALSE(planned().has(kJitter));
 }
 
 TEST_F(Plan, AnIsosurfaceOfVoxelsNeedsAGradientOnlyWhereItIsLit) {
