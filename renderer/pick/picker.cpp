@@ -40,7 +40,7 @@ Result<void> checkPixel(scene::PictureSize size, glm::ivec2 pixel) {
 
 void Picker::forget(const std::string& dataset) {
     known_.erase(dataset);
-    casters_.erase(dataset);
+    bodies_.erase(dataset);
     prepared_ = false;
 }
 
@@ -57,24 +57,32 @@ Result<void> Picker::prepare(const scene::Scene& scene, const Datasets& datasets
         }
         if (known.summary.fields.empty()) known.summary = data::summarize(*known.dataset);
         summaries.emplace(layer.dataset, known.summary);
-        const auto* mesh = std::get_if<data::Mesh>(known.dataset);
-        auto& caster = casters_[layer.dataset];
-        if (mesh != nullptr && caster == nullptr) caster = reference::makeCaster(*mesh);
+        if (known.summary.isMesh && !bodies_.contains(layer.dataset)) {
+            bodies_.emplace(layer.dataset, reference::makeBody(*known.dataset));
+        }
     }
     if (auto valid = scene::validate(scene, summaries); !valid) return valid;
-    const plan::FramePlan plan = plan::plan(scene, summaries, {});
     layers_ = scene.layers;
     meshLayers_.assign(layers_.size(), {});
-    steps_.assign(layers_.size(), 0.0);
     for (std::size_t i = 0; i < layers_.size(); ++i) {
-        steps_[i] = plan.layers[i].stepWorld;
         if (!layers_[i].visible || !known_[layers_[i].dataset].summary.isMesh) continue;
-        auto data = reference::prepare(layers_[i], casters_, "layers[" + std::to_string(i) + "]");
+        auto data = reference::prepare(layers_[i], bodies_, "layers[" + std::to_string(i) + "]");
         if (!data) return data.error();
         meshLayers_[i] = *std::move(data);
     }
     prepared_ = true;
     return {};
+}
+
+/// Steps of the march, which may depend on the camera.
+void Picker::planSteps(const scene::Scene& scene) {
+    scene::Summaries summaries;
+    for (const scene::Layer& layer : layers_) {
+        summaries.emplace(layer.dataset, known_[layer.dataset].summary);
+    }
+    const plan::FramePlan plan = plan::plan(scene, summaries, {});
+    steps_.clear();
+    for (const plan::LayerPlan& layer : plan.layers) steps_.push_back(layer.stepWorld);
 }
 
 Result<std::optional<scene::Picked>> Picker::pick(const scene::Scene& scene,
@@ -85,6 +93,7 @@ Result<std::optional<scene::Picked>> Picker::pick(const scene::Scene& scene,
     if (good) good = scene::validate(scene);
     if (good) good = prepare(scene, datasets);
     if (!good) return good.error();
+    planSteps(scene);
     const reference::Lens lens{scene.camera, size};
     const reference::Ray ray = lens.through(glm::dvec2{pixel} + 0.5);
     reference::Span span = reference::keptBy(scene.clipPlanes, ray);

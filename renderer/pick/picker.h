@@ -42,12 +42,13 @@ private:
         data::DatasetSummary summary;
     };
     Result<void> prepare(const scene::Scene& scene, const Datasets& datasets);
+    void planSteps(const scene::Scene& scene);
 
     std::map<std::string, Known> known_;
-    reference::Casters casters_;
+    reference::Bodies bodies_;
     std::vector<scene::Layer> layers_;
     std::vector<reference::LayerData> meshLayers_;  ///< As many as layers_; of meshes alone filled.
-    std::vector<double> steps_;                     ///< Likewise; of voxels.
+    std::vector<double> steps_;                     ///< Likewise; of voxels, for the last camera.
     reference::Scratch scratch_;
     bool prepared_ = false;
 };

@@ -154,6 +154,19 @@ TEST_F(Pick, VoxelsAreSampledAsTheyAreMarched) {
     EXPECT_NEAR(shown(layer).values[0].value, 0.31 * 0.42 + 0.995 + bend, 1e-6);
 }
 
+TEST_F(Pick, SamplesOverTheDepthFollowTheCamera) {
+    add("mesh", voxels({alongZ}));
+    scene::Layer layer = ofVoxels(RayModel::kMip, ramp());
+    layer.stepWorld = 0.0;
+    layer.depthSamples = 7;
+    // Straight on the box is 1 deep; the last of 7 samples lies half a step before its back.
+    EXPECT_NEAR(shown(layer).values[0].value, 1.0 - 0.5 / 7.0, 1e-6);
+    // Over a corner it is sqrt(3) deep, the same as this ray through its middle.
+    const auto found = pick(sceneOf(along(glm::dvec3{-3.0}, glm::dvec3{0.5}), {layer}));
+    ASSERT_TRUE(found && *found);
+    EXPECT_NEAR((*found)->values[0].value, 1.0 - 0.5 / 7.0, 1e-6);
+}
+
 TEST_F(Pick, IntervalsAndClipPlanesLeaveOutWhatIsNotShown) {
     add("mesh", cube());
     scene::Layer layer = layerOf(RayModel::kMip, ramp());
