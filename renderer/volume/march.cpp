@@ -84,8 +84,6 @@ shading::Recipe marchRecipe(const MarchTraits& traits, std::vector<shading::Cons
                       {"kClipPlanes", traits.clipPlanes},
                       {"kClipsAtStart", true},
                       {"kTricubicOvershoot", plan::kTricubicOvershoot},
-                      {"kRangeBlock", kRangeBlock},
-                      {"kRangeReach", kRangeReach},
                       {"kMaxRaySamples", loops ? plan::kMaxRayPieces : plan::kMaxRaySamples}});
     std::string segment{integrator == nullptr ? "" : integrator->chunk};
     if (traits.shaded) segment = "segment/average_lit.glsl";
