@@ -93,19 +93,15 @@ public:
         }
     }
 
+    /// Layers that run code cannot be measured; the others are, without them.
     void measure(MeasureRequest request) override {
-        const std::scoped_lock lock{mutex_};
-        const auto own = own_.find(request.view);
-        RenderService* service = own == own_.end() ? shared_.get() : own->second->service.get();
-        if (service != nullptr) service->measure(std::move(request));
+        for (scene::Layer& layer : request.job.scene.layers) {
+            if (scene::runsUserCode(layer)) layer.visible = false;
+        }
+        shared_->measure(std::move(request));
     }
 
-    void stopMeasuring(std::uint64_t view) override {
-        const std::scoped_lock lock{mutex_};
-        shared_->stopMeasuring(view);
-        const auto own = own_.find(view);
-        if (own != own_.end() && own->second->service) own->second->service->stopMeasuring(view);
-    }
+    void stopMeasuring(std::uint64_t view) override { shared_->stopMeasuring(view); }
 
     void dropView(std::uint64_t view) override {
         shared_->dropView(view);
