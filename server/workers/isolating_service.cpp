@@ -103,6 +103,9 @@ public:
 
     void stopMeasuring(std::uint64_t view) override { shared_->stopMeasuring(view); }
 
+    /// Needs no GL and runs no code.
+    void pick(PickRequest request) override { shared_->pick(std::move(request)); }
+
     void dropView(std::uint64_t view) override {
         shared_->dropView(view);
         end(view);
