@@ -13,6 +13,12 @@ namespace volcast::pick {
 
 namespace {
 
+/// Whole steps over a length; a last one that is no more than its rounding is none.
+double stepsOver(double length, double step) {
+    constexpr double kRounding = 1e-9;
+    return std::max(std::ceil(length / step - kRounding), 1.0);
+}
+
 using reference::LinearMap;
 using reference::Ray;
 using reference::Span;
@@ -108,7 +114,7 @@ March marched(const scene::Layer& layer, const std::vector<Drawn>& drawn, const 
               const Span& span, double stepWorld) {
     March march;
     march.strongest.assign(drawn.size(), Strongest{layer.model});
-    const double steps = std::max(std::ceil((span.end - span.begin) / stepWorld), 1.0);
+    const double steps = stepsOver(span.end - span.begin, stepWorld);
     const double dt = (span.end - span.begin) / steps;
     const bool absorbs = layer.model == scene::RayModel::kVolume;
     const double gain = absorbs ? std::exp(static_cast<double>(layer.gain)) : 1.0;
@@ -178,7 +184,7 @@ std::optional<Place> firstLevel(const scene::Layer& layer, const Drawn& drawn, c
                                 const Span& span, double stepWorld) {
     constexpr int kHalvings = 40;
     const std::vector<float> levels = scene::levelsOf(layer);
-    const double steps = std::max(std::ceil((span.end - span.begin) / stepWorld), 1.0);
+    const double steps = stepsOver(span.end - span.begin, stepWorld);
     const double dt = (span.end - span.begin) / steps;
     const auto valueAt = [&](double distance) { return drawn.field.at(grid.at(distance)); };
     double front = valueAt(span.begin);
