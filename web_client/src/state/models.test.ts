@@ -10,7 +10,7 @@ const kModels = Object.values(RayModel).filter(
 describe("ray models", () => {
   it("all have a name of their own, a meaning, and end with the exact integrator", () => {
     const facts = kModels.map(factsOf);
-    expect(kModels).toHaveLength(9);
+    expect(kModels).toHaveLength(10);
     expect(new Set(facts.map((f) => f.name)).size).toBe(kModels.length);
     for (const { meaning, integrators } of facts) {
       expect(meaning).toMatch(/^[A-Z].*\.$/);
@@ -32,6 +32,7 @@ describe("ray models", () => {
     expect(uses(RayModel.MIP)).toEqual([true, false]);
     expect(uses(RayModel.SPLAT)).toEqual([true, false]);
     expect(uses(RayModel.XRAY)).toEqual([false, true]);
+    expect(uses(RayModel.CROSS_SECTIONS)).toEqual([true, false]);
     expect(uses(RayModel.WIREFRAME)).toEqual([false, false]);
     expect(uses(RayModel.SURFACE, { coloured: true })).toEqual([true, false]);
   });

@@ -124,6 +124,15 @@ const kFacts: ReadonlyMap<RayModel, ModelFacts> = new Map([
       ],
     },
   ],
+  [
+    RayModel.CROSS_SECTIONS,
+    {
+      ...kPlain,
+      name: "Cross-sections",
+      meaning: "Planes across the axes of the data, coloured by its values.",
+      gathered: false,
+    },
+  ],
 ]);
 
 const kUnknown: ModelFacts = { ...kPlain, name: "", meaning: "" };
@@ -145,6 +154,7 @@ export const kIntegratorNames: Readonly<Record<Integrator, string>> = {
   [Integrator.EXACT]: "exact",
   [Integrator.FRONT]: "front",
   [Integrator.ENDS]: "ends",
+  [Integrator.ADAPTIVE]: "adaptive",
 };
 
 export const kIntegratorLabels: Readonly<Record<Integrator, string>> = {
@@ -157,6 +167,7 @@ export const kIntegratorLabels: Readonly<Record<Integrator, string>> = {
   [Integrator.EXACT]: "Exact",
   [Integrator.FRONT]: "Front end",
   [Integrator.ENDS]: "Both ends",
+  [Integrator.ADAPTIVE]: "Adaptive steps",
 };
 
 export const kEvaluatorLabels: Readonly<Record<MeshEvaluator, string>> = {

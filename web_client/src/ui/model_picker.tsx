@@ -16,6 +16,7 @@ function nameOf(model: RayModel, kind: DatasetKind): string {
   const { name } = factsOf(model);
   if (kind !== DatasetKind.VOLUME) return name;
   if (model === RayModel.MIP) return `${name} (MAX)`;
+  if (model === RayModel.CROSS_SECTIONS) return `${name} (OFF)`;
   return model === RayModel.VOLUME ? `${name} (ON)` : name;
 }
 
