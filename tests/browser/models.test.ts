@@ -160,7 +160,8 @@ describe("what part of the data is drawn", () => {
     const whole = await picture();
     await client.page.getByLabel("Only a range of values").check();
     await client.settled();
-    await client.after(() => setting("To").fill("0.5"));
+    const to = client.page.getByRole("slider", { name: "To", exact: true });
+    await client.after(() => to.fill("0.5"));
     expect(await picture()).not.toBe(whole);
     await undo();
     await client.after(() => client.page.getByLabel("Only a range of values").uncheck());

@@ -17,6 +17,7 @@ import { PickedLine } from "./picked_line";
 import type { AppPort } from "./port";
 import { Readout } from "./readout";
 import { RefusalNote } from "./refusal_note";
+import { VoxelPanel } from "./voxel_panel";
 
 interface Props {
   readonly state: AppState;
@@ -130,6 +131,7 @@ export function App({ state, port, helpOpen, picture }: Props) {
           <ChannelList state={state} />
           <MapEditor state={state} slot="first" />
           <MapEditor state={state} slot="second" />
+          <VoxelPanel state={state} />
           <AccuracyPanel state={state} />
           <ClipEditor state={state} />
           <BackgroundPicker state={state} />

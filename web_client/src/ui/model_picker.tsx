@@ -1,12 +1,12 @@
-import { RayModel, Sampling } from "../net/gen/volcast/v1/scene_pb";
+import { RayModel } from "../net/gen/volcast/v1/scene_pb";
 import { DatasetKind } from "../net/gen/volcast/v1/session_pb";
-import { changeLayer, isMesh, modelsOf } from "../state/actions";
+import { isMesh, modelsOf } from "../state/actions";
 import type { AppState } from "../state/app_state";
 import { chooseModel } from "../state/layer_actions";
 import { factsOf } from "../state/models";
-import { SelectLine } from "./inputs";
 import { LevelOptions } from "./level_options";
 import { LineOptions, SecondField, SurfaceOptions } from "./model_options";
+import { SectionOptions } from "./section_options";
 
 interface Props {
   readonly state: AppState;
@@ -18,21 +18,6 @@ function nameOf(model: RayModel, kind: DatasetKind): string {
   if (model === RayModel.MIP) return `${name} (MAX)`;
   if (model === RayModel.CROSS_SECTIONS) return `${name} (OFF)`;
   return model === RayModel.VOLUME ? `${name} (ON)` : name;
-}
-
-function SamplingOption({ state }: Props) {
-  return (
-    <SelectLine
-      label="Between voxels"
-      value={state.layer.value?.sampling ?? Sampling.TRILINEAR}
-      options={[
-        [Sampling.TRILINEAR, "Linear"],
-        [Sampling.TRICUBIC, "Cubic"],
-        [Sampling.NEAREST, "Nearest voxel"],
-      ]}
-      take={(sampling) => changeLayer(state, { sampling })}
-    />
-  );
 }
 
 /** How a ray turns data into colour, with the options of the chosen model. */
@@ -69,7 +54,7 @@ export function ModelPicker({ state }: Props) {
         <SurfaceOptions state={state} />
         <LineOptions state={state} />
         {isMesh(state) && <SecondField state={state} />}
-        {kind === DatasetKind.VOLUME && <SamplingOption state={state} />}
+        <SectionOptions state={state} />
       </div>
     </section>
   );

@@ -1,0 +1,96 @@
+import { RayModel, Sampling } from "../net/gen/volcast/v1/scene_pb";
+import { changeLayer, endGesture } from "../state/actions";
+import type { AppState } from "../state/app_state";
+import { isRefused } from "../state/refusal";
+import {
+  chooseStep,
+  isAbsorbing,
+  isVolume,
+  type StepKind,
+  stepKindOf,
+} from "../state/voxel_actions";
+import { formatNumber } from "./format";
+import { NumberLine, SelectLine, SliderField } from "./inputs";
+import { LightOptions } from "./light_options";
+
+interface Props {
+  readonly state: AppState;
+}
+
+const kSteps: readonly (readonly [StepKind, string])[] = [
+  ["usual", "Half a voxel apart"],
+  ["length", "A length apart"],
+  ["count", "A count over the depth"],
+];
+
+/** How far apart a ray's samples are. */
+function StepOptions({ state }: Props) {
+  const layer = state.layer.value;
+  if (!layer) return null;
+  const kind = stepKindOf(layer);
+  return (
+    <>
+      <SelectLine
+        label="Samples"
+        value={kind}
+        options={kSteps}
+        invalid={isRefused(state, "step_world") || isRefused(state, "depth_samples")}
+        take={(next) => chooseStep(state, next)}
+      />
+      {kind === "length" && (
+        <NumberLine
+          label="Step, world units"
+          text={formatNumber(layer.stepWorld)}
+          invalid={isRefused(state, "step_world")}
+          take={(stepWorld) => changeLayer(state, { stepWorld })}
+        />
+      )}
+      {kind === "count" && (
+        <NumberLine
+          label="Samples over the depth"
+          text={String(layer.depthSamples)}
+          invalid={isRefused(state, "depth_samples")}
+          take={(count) =>
+            changeLayer(state, { depthSamples: Math.round(Math.min(1e6, Math.max(1, count))) })
+          }
+        />
+      )}
+    </>
+  );
+}
+
+/** How a volume of voxels is sampled and lit. */
+export function VoxelPanel({ state }: Props) {
+  const layer = state.layer.value;
+  if (!layer || !isVolume(state)) return null;
+  return (
+    <section class="section" aria-labelledby="voxels-heading">
+      <h2 id="voxels-heading">Voxels</h2>
+      <div class="options">
+        <SelectLine
+          label="Between voxels"
+          value={layer.sampling}
+          options={[
+            [Sampling.TRILINEAR, "Linear"],
+            [Sampling.TRICUBIC, "Cubic"],
+            [Sampling.NEAREST, "Nearest voxel"],
+          ]}
+          take={(sampling) => changeLayer(state, { sampling })}
+        />
+        {layer.model !== RayModel.CROSS_SECTIONS && <StepOptions state={state} />}
+        {isAbsorbing(layer) && (
+          <SliderField
+            label="Gain"
+            value={layer.gain}
+            low={-10}
+            high={10}
+            invalid={isRefused(state, "gain")}
+            take={(gain, gesture) => changeLayer(state, { gain }, gesture)}
+            done={() => endGesture(state)}
+          />
+        )}
+        <LightOptions state={state} />
+      </div>
+    </section>
+  );
+}
