@@ -16,6 +16,7 @@ import { createAppState, notify, type PictureInfo } from "./state/app_state";
 import type { ViewDocument } from "./state/document";
 import { keepDocument, keptDocument } from "./state/keeper";
 import { Recorder, type Stages } from "./state/recorder";
+import { codeToDescribe } from "./state/shader_actions";
 import { App } from "./ui/app";
 import type { AppPort } from "./ui/port";
 import "./ui/style.css";
@@ -141,6 +142,14 @@ onEdit(state.orbit, () => session.mark("camera"));
 onEdit(state.viewport, () => {
   session.resized();
   refitCamera(state);
+});
+
+/** As text, so that only other code, or other data, is another question. */
+const codeQuestion = computed(() => JSON.stringify(codeToDescribe(state)) ?? "");
+effect(() => {
+  const question = codeQuestion.value;
+  const isOpen = state.connection.value.kind === "open";
+  if (question && isOpen) untracked(() => session.describeShader(JSON.parse(question)));
 });
 
 const port: AppPort = {

@@ -3,6 +3,7 @@ import { type AppState, type Edit, notify } from "../state/app_state";
 import type { ViewDocument } from "../state/document";
 import { sentenceOf } from "../state/refusal";
 import { cameraMessage, sceneMessage } from "../state/scene_message";
+import { type CodeOfData, takeDescription } from "../state/shader_actions";
 import { Connection } from "./connection";
 import { decodeFrame, type Frame, isFrame, kMajor, kMinor } from "./framing";
 import type { Error as ErrorMessage } from "./gen/volcast/v1/error_pb";
@@ -69,6 +70,8 @@ export class Session {
   #wish: Wish | undefined;
   /** The pixel whose answer is waited for or shown. */
   #picking: { readonly inputSeq: bigint; readonly x: number; readonly y: number } | undefined;
+  /** The code whose description is waited for. */
+  #describing: { readonly request: number; readonly asked: CodeOfData } | undefined;
   /** The newest settings that were sent, and the Update they went with. */
   #sentEdit: { readonly inputSeq: bigint; readonly edit: Edit } | undefined;
 
@@ -136,6 +139,13 @@ export class Session {
   stopPicking(): void {
     this.#picking = undefined;
     this.#state.picked.value = undefined;
+  }
+
+  /** Asks what the server reads in code; the newest answer alone counts. */
+  describeShader(asked: CodeOfData): void {
+    const request = (this.#describing?.request ?? 0) + 1;
+    this.#describing = { request, asked };
+    this.#send({ case: "describeShader", value: { request, ...asked } });
   }
 
   acknowledge(view: number, sequence: number, holdMs: number, decodeMs: number, queue: number) {
@@ -278,6 +288,13 @@ export class Session {
       case "picked":
         this.#picked(body.value);
         break;
+      case "shaderDescription": {
+        const { request, controls, complaints } = body.value;
+        const described = this.#describing;
+        if (request !== described?.request) break;
+        takeDescription(state, { ...described.asked, controls, complaints });
+        break;
+      }
       case "error":
         this.#error(body.value);
         break;

@@ -13,6 +13,7 @@ import type { TransferFunction } from "../transfer/transfer_function";
 import type { Bounds, Orbit } from "../view/camera";
 import { length, subtract, type Vec3 } from "../view/vec3";
 import { type History, startHistory } from "./history";
+import type { DescribedCode } from "./shader_actions";
 
 export type ConnectionStatus =
   | { readonly kind: "connecting" }
@@ -124,6 +125,12 @@ export function createAppState() {
     refusal: signal<Refusal | undefined>(undefined),
     /** The settings that the server took last: what a refusal leaves on the screen. */
     accepted: signal<Edit | undefined>(undefined),
+    /** Code in the editor that is not drawn; undefined: it shows the layer's. */
+    codeDraft: signal<string | undefined>(undefined),
+    /** Code that is to be drawn when the server has described it. */
+    appliedCode: signal<string | undefined>(undefined),
+    /** The newest descriptions: of code that is drawn, and of code that was tried. */
+    describedCodes: signal<readonly DescribedCode[]>([]),
     viewport: signal<ViewportSize | undefined>(undefined),
     picture: signal<PictureInfo | undefined>(undefined),
     /** What the picture shows under the resting pointer. */

@@ -81,8 +81,10 @@ export function drawTogether(state: AppState, together: boolean): void {
   const fields = state.dataset.value?.fields.slice(0, kMostChannels) ?? [];
   const length = state.referenceLength.value;
   const channels = fields.map((f, i) => channelOf(f.name, usualLook(f, i), false, length));
+  const code = state.layer.value?.shader?.code;
+  if (together && code) state.codeDraft.value ??= code;
   // What several channels have no use for.
-  const rest = together ? { light: undefined, interval: undefined } : {};
+  const rest = together ? { light: undefined, interval: undefined, shader: undefined } : {};
   changeLayer(state, { ...rest, channels: together ? channels : [] });
 }
 

@@ -23,13 +23,15 @@ import {
 } from "./actions";
 import type { AppState, MapEdit } from "./app_state";
 import { isEmpty, middleLevel, movedTo, valuesOf } from "./levels";
-import { fittedTo, type Slot } from "./models";
+import { fittedTo, kRunsCode, type Slot } from "./models";
 
 /** Another ray model, with what it needs to draw something. */
 export function chooseModel(state: AppState, model: RayModel): void {
   const layer = state.layer.value;
   const field = state.field.value;
   if (!layer) return;
+  const code = layer.shader?.code;
+  if (code && !kRunsCode.has(model)) state.codeDraft.value ??= code;
   const needsLevels = model === RayModel.ISOSURFACE && isEmpty(layer.levels) && field;
   changeLayer(state, {
     ...fittedTo(layer, model),

@@ -82,6 +82,7 @@ describe("choices by name", () => {
       integrator: Integrator.AUTO,
       evaluator: MeshEvaluator.AUTO,
       channels: [],
+      shader: undefined,
     });
   });
 

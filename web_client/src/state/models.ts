@@ -218,6 +218,14 @@ export const kSeveral: ReadonlySet<RayModel> = new Set([
   RayModel.XRAY,
 ]);
 
+/** Models that show what a user's code emits. */
+export const kRunsCode: ReadonlySet<RayModel> = new Set([
+  RayModel.UNSPECIFIED,
+  RayModel.VOLUME,
+  RayModel.MIP,
+  RayModel.MINIP,
+]);
+
 /** What of a layer cannot stay with another model: the new model's own choices serve it. */
 export function fittedTo(layer: Layer, model: RayModel): Partial<Layer> {
   const { integrators } = factsOf(model);
@@ -228,7 +236,8 @@ export function fittedTo(layer: Layer, model: RayModel): Partial<Layer> {
     ? layer.evaluator
     : MeshEvaluator.AUTO;
   const channels = kSeveral.has(model) ? layer.channels : [];
-  return { model, integrator, evaluator, channels };
+  const shader = kRunsCode.has(model) ? layer.shader : undefined;
+  return { model, integrator, evaluator, channels, shader };
 }
 
 export const kScaleLabels: Readonly<Record<Scale_Kind, string>> = {

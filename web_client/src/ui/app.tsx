@@ -17,6 +17,7 @@ import { PickedLine } from "./picked_line";
 import type { AppPort } from "./port";
 import { Readout } from "./readout";
 import { RefusalNote } from "./refusal_note";
+import { ShaderPanel } from "./shader_panel";
 import { VoxelPanel } from "./voxel_panel";
 
 interface Props {
@@ -132,6 +133,7 @@ export function App({ state, port, helpOpen, picture }: Props) {
           <MapEditor state={state} slot="first" />
           <MapEditor state={state} slot="second" />
           <VoxelPanel state={state} />
+          <ShaderPanel state={state} />
           <AccuracyPanel state={state} />
           <ClipEditor state={state} />
           <BackgroundPicker state={state} />

@@ -68,6 +68,7 @@ export function meaningOf(key: Key): KeyMeaning | undefined {
 export function takesKey(target: EventTarget | null, key: string): boolean {
   if (!(target instanceof HTMLElement)) return false;
   if (target.closest("dialog[open]") || target instanceof HTMLSelectElement) return true;
+  if (target instanceof HTMLTextAreaElement) return true;
   if (!(target instanceof HTMLInputElement)) return false;
   if (target.type === "text") return true;
   return target.type !== "checkbox" && key.startsWith("Arrow");
