@@ -29,6 +29,7 @@ describe("ray models", () => {
     };
     expect(uses(RayModel.VOLUME)).toEqual([true, true]);
     expect(uses(RayModel.UNSPECIFIED)).toEqual([true, true]);
+    expect(uses(RayModel.VOLUME, { shader: { code: "void main() {}" } })).toEqual([false, false]);
     expect(uses(RayModel.MIP)).toEqual([true, false]);
     expect(uses(RayModel.SPLAT)).toEqual([true, false]);
     expect(uses(RayModel.XRAY)).toEqual([false, true]);

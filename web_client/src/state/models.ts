@@ -128,7 +128,7 @@ const kFacts: ReadonlyMap<RayModel, ModelFacts> = new Map([
     RayModel.CROSS_SECTIONS,
     {
       ...kPlain,
-      name: "Cross-sections",
+      name: "Sections",
       meaning: "Planes across the axes of the data, coloured by its values.",
       gathered: false,
     },
@@ -197,13 +197,14 @@ export function secondPart(layer: Layer | undefined): ModelFacts["second"] {
 
 /** True where the picture depends on this map's extinction. */
 export function usesExtinction(layer: Layer | undefined, slot: Slot = "first"): boolean {
-  if (!layer || !factsOf(layer.model).extinction) return false;
+  if (!layer || layer.shader?.code || !factsOf(layer.model).extinction) return false;
   return (secondPart(layer) === "density") === (slot === "second");
 }
 
 /** True where the picture depends on this map's colours. */
 export function usesColours(layer: Layer | undefined, slot: Slot = "first"): boolean {
   if (!layer) return slot === "first";
+  if (layer.shader?.code) return false;
   if (isTriangles(layer.model)) return slot === "first" && layer.coloured;
   if (!factsOf(layer.model).colours) return false;
   return (secondPart(layer) === "colour") === (slot === "second");

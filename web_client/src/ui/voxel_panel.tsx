@@ -19,8 +19,8 @@ interface Props {
 
 const kSteps: readonly (readonly [StepKind, string])[] = [
   ["usual", "Half a voxel apart"],
-  ["length", "A length apart"],
-  ["count", "A count over the depth"],
+  ["length", "By their distance"],
+  ["count", "By their number"],
 ];
 
 /** How far apart a ray's samples are. */
