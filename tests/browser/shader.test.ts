@@ -85,6 +85,20 @@ describe("the shader editor", () => {
     expect(client.complaints).toEqual([]);
   });
 
+  it("says what only compiling shows, and keeps the code when it is taken back", async () => {
+    const before = await picture();
+    const wrong = "void main() {\n  emitRGBA(vec4(nothing));\n}";
+    await editor().fill(wrong);
+    await editor().press("Control+Enter");
+    const note = client.page.locator(".refusal");
+    await note.waitFor();
+    expect(await note.innerText()).toMatch(/^Shader: line 2/);
+    await client.page.getByRole("button", { name: "Take back" }).click();
+    await client.settled();
+    await expect.poll(picture, { timeout: 20_000 }).toBe(before);
+    expect(await editor().inputValue()).toBe(wrong);
+  });
+
   it("indents with Tab, and is left with Shift+Tab", async () => {
     await editor().fill("");
     await editor().press("Tab");

@@ -1,5 +1,7 @@
+import { create } from "@bufbuild/protobuf";
 import { describe, expect, it } from "vitest";
-import { changeDensity, redo } from "./actions";
+import { SceneSchema } from "../net/gen/volcast/v1/scene_pb";
+import { changeDensity, changeEdit, redo } from "./actions";
 import { createAppState } from "./app_state";
 import { isRefused, sentenceOf, takeBack } from "./refusal";
 
@@ -17,6 +19,9 @@ describe("a refusal", () => {
     );
     expect(said("layers[0].extinction_scale", "10.050000 is odd")).toBe("Strength: 10.05 is odd.");
     expect(said("layers[0].scale.exponent", "-1 is not above 0")).toMatch(/^Exponent of the scale/);
+    expect(
+      sentenceOf({ field: "layers[0].shader.code", message: "layers[0].shader.code:\nline 2: no" }),
+    ).toBe("Shader: line 2: no.");
   });
 
   it("is told without a name where there is none", () => {
@@ -49,5 +54,16 @@ describe("a refusal", () => {
     expect(state.refusal.value).toBeUndefined();
     redo(state);
     expect(state.edit.value.present.density).toBe(3);
+  });
+
+  it("that is taken back leaves refused code in the editor", () => {
+    const state = createAppState();
+    const sceneWith = (code: string) => create(SceneSchema, { layers: [{ shader: { code } }] });
+    changeEdit(state, { scene: sceneWith("good") });
+    const accepted = state.edit.value.present;
+    changeEdit(state, { scene: sceneWith("bad") });
+    takeBack(state, accepted);
+    expect(state.layer.value?.shader?.code).toBe("good");
+    expect(state.codeDraft.value).toBe("bad");
   });
 });

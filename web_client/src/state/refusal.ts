@@ -39,7 +39,7 @@ const kNames: readonly (readonly [RegExp, string])[] = [
 ];
 
 /** `layers[0].levels.count: `, which the server says for scripts, once or twice. */
-const kLeadingPaths = /^([a-z_]+(\[\d+\])?(\.[a-z_]+(\[\d+\])?)*: )+/;
+const kLeadingPaths = /^([a-z_]+(\[\d+\])?(\.[a-z_]+(\[\d+\])?)*:\s)+/;
 
 /** "-0.500000" and "3.000000" as people write them. */
 const plainNumbers = (text: string): string =>
@@ -64,11 +64,14 @@ export function isRefused(state: Pick<AppState, "refusal">, path: string): boole
   return parts.some((_, i) => asked.every((name, k) => parts[i + k] === name));
 }
 
-/** Puts the settings back to those of the picture; the refused ones can be redone. */
+/** Puts the settings back to those of the picture; the refused ones can be redone, and refused code
+ * stays in the editor. */
 export function takeBack(state: AppState, accepted: Edit): void {
   const { past, present } = state.edit.value;
   const at = past.lastIndexOf(accepted);
   const kept = at >= 0 ? past.slice(0, at) : past;
+  const code = present.scene?.layers[0]?.shader?.code;
+  if (code && code !== accepted.scene?.layers[0]?.shader?.code) state.codeDraft.value ??= code;
   state.edit.value = { ...startHistory(accepted), past: kept, future: [present] };
   state.refusal.value = undefined;
 }

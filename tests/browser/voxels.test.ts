@@ -1,0 +1,93 @@
+import type { Browser } from "playwright-core";
+import { afterAll, beforeAll, describe, expect, it } from "vitest";
+import { Client, launch } from "./support/client";
+import { hashOf } from "./support/pixels";
+import { Server } from "./support/server";
+
+let server: Server;
+let browser: Browser;
+let client: Client;
+
+beforeAll(async () => {
+  server = await Server.start();
+  browser = await launch();
+  client = await Client.open(browser, server.url, { viewport: { width: 800, height: 700 } });
+  const row = client.page.locator('.dataset[data-dataset="demo:volume"]');
+  if ((await row.getAttribute("data-shown")) === null) {
+    await client.after(() => row.locator(".dataset-choose").click());
+  }
+});
+
+afterAll(async () => {
+  await browser?.close();
+  await server?.stop();
+});
+
+const picture = async (): Promise<string> => hashOf(await client.pixels());
+
+async function choose(name: string, label: string): Promise<void> {
+  await client.page.getByRole("combobox", { name, exact: true }).selectOption({ label });
+}
+
+async function type(name: string, text: string): Promise<void> {
+  const input = client.page.getByRole("textbox", { name, exact: true });
+  await input.fill(text);
+  await input.press("Enter");
+}
+
+const slide = (name: string, to: string): Promise<void> =>
+  client.page.getByRole("slider", { name, exact: true }).fill(to);
+
+const check = (name: string, on: boolean): Promise<void> =>
+  client.page.getByRole("checkbox", { name, exact: true }).setChecked(on);
+
+/** Makes every step, and expects that each shows another picture. */
+async function expectEachDiffers(steps: readonly (() => Promise<void>)[]): Promise<void> {
+  const seen = new Set([await picture()]);
+  for (const step of steps) {
+    await client.after(step);
+    seen.add(await picture());
+  }
+  expect(seen.size).toBe(steps.length + 1);
+}
+
+describe("a volume of voxels", () => {
+  it("is sampled as the panel says", async () => {
+    await expectEachDiffers([
+      () => choose("Between voxels", "Nearest voxel"),
+      () => choose("Between voxels", "Cubic"),
+      () => choose("Samples", "By their number"),
+      () => type("Samples over the depth", "20"),
+      () => slide("Gain", "0.55"),
+    ]);
+    expect(client.complaints).toEqual([]);
+  });
+
+  it("is lit from the eye and from a point", async () => {
+    const dark = await picture();
+    await expectEachDiffers([
+      () => check("Light", true),
+      () => slide("Ambient", "0.6"),
+      () => slide("Diffuse", "0.2"),
+      () => slide("Specular", "0.9"),
+      () => slide("Shininess", "0.05"),
+      () => choose("Light from", "A point"),
+      () => type("Light X", "-100"),
+    ]);
+    await client.after(() => check("Light", false));
+    expect(await picture()).toBe(dark);
+  });
+
+  it("is cut by planes that are moved and hidden", async () => {
+    const radio = client.page.getByRole("radio", { name: /^Sections/ });
+    await expectEachDiffers([
+      () => radio.check({ force: true }),
+      () => slide("At X", "0.4"),
+      () => slide("At Z", "0.7"),
+      () => check("Y", false),
+      () => check("X", false),
+    ]);
+    expect(await client.page.getByRole("slider", { name: "At X" }).count()).toBe(0);
+    expect(client.complaints).toEqual([]);
+  });
+});
