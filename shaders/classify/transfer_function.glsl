@@ -92,10 +92,9 @@ int pieceOf(float value, int search, int pieces, MapHead head) {
     return halved(pieces, value, halved(pieces, value, range)).x;
 }
 
-// Number of points that are not above a value, whatever the search. By the uniform itself: NVIDIA's
-// compiler (580.159.04) counts all points where it is given the copy above.
+// Number of points that are not above a value, whatever the search.
 int pointsUpTo(float f) {
-    return pieceOf(f, kMapSearch == 3 ? 0 : kMapSearch, kMapPieces, uniformMapHead);
+    return pieceOf(f, kMapSearch == 3 ? 0 : kMapSearch, kMapPieces, mapHead);
 }
 
 int densityPieces() {
@@ -103,8 +102,7 @@ int densityPieces() {
 }
 
 int densityPointsUpTo(float g) {
-    return pieceOf(g, kDensitySearch == 3 ? 0 : kDensitySearch, densityPieces(),
-                   uniformDensityHead);
+    return pieceOf(g, kDensitySearch == 3 ? 0 : kDensitySearch, densityPieces(), densityHead);
 }
 
 // How much of the first 7 pieces between points lies below `value`, each from 0 to 1.
@@ -167,8 +165,10 @@ vec4 matterAt(float f, float g) {
     return kTwoMaps ? vec4(matter.rgb, max(densityValue(g).a, 0.0)) : matter;
 }
 
+// Both texels are fetched within the comparison: with one in a variable before, NVIDIA's compiler
+// (580.159.04) takes the comparison for true.
 bool transparentBetween(float lo, float hi) {
     int texel = kMapPieces + 2;
-    float below = texelFetch(mapTexels, texel + 3 * pointsUpTo(lo)).y;
-    return texelFetch(mapTexels, texel + 3 * pointsUpTo(hi)).z == below;
+    int first = pointsUpTo(lo), last = pointsUpTo(hi);
+    return texelFetch(mapTexels, texel + 3 * last).z == texelFetch(mapTexels, texel + 3 * first).y;
 }
