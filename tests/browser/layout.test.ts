@@ -82,6 +82,27 @@ describe("layout", () => {
     await client.close();
   });
 
+  it.each([kLooks[0], kLooks[3]] as Look[])(
+    "$name has accessible panels of voxels",
+    async (look) => {
+      const client = await Client.open(browser, server.url, look.options);
+      const toggle = client.page.locator(".sheet-toggle");
+      if (await toggle.isVisible()) await client.after(() => toggle.click());
+      const row = client.page.locator('.dataset[data-dataset="demo:volume"] .dataset-choose');
+      await client.after(() => row.click());
+      await client.after(() => client.page.getByLabel("Light", { exact: true }).check());
+      await client.page.locator("section", { hasText: "Shader" }).locator("summary").click();
+      await client.page.locator(".code").fill("void");
+      await client.page.locator(".code").press("Control+Enter");
+      await client.page.locator(".complaints li").first().waitFor();
+      expect(await violations(client)).toEqual([]);
+      await client.page.screenshot({ path: join(screenshotFolder(), `${look.name}-voxels.png`) });
+      const body = client.page.locator(".panel-body");
+      expect(await body.evaluate((e) => e.scrollWidth - e.clientWidth)).toBe(0);
+      await client.close();
+    },
+  );
+
   it.each([1.5, 2])("draws device pixels at a scale of %s", async (deviceScaleFactor) => {
     const viewport = { width: 801, height: 500 };
     const client = await Client.open(browser, server.url, { viewport, deviceScaleFactor });
