@@ -63,6 +63,15 @@ describe("a volume of voxels", () => {
     expect(client.complaints).toEqual([]);
   });
 
+  it("is drawn by every integrator that is offered", async () => {
+    const choice = client.page.getByRole("combobox", { name: "Integrator", exact: true });
+    const labels = await choice.locator("option").allTextContents();
+    expect(labels).toHaveLength(7);
+    for (const label of labels.slice(1)) await client.after(() => choose("Integrator", label));
+    expect(await client.page.locator(".refusal").count()).toBe(0);
+    await client.after(() => choose("Integrator", "Automatic"));
+  });
+
   it("is lit from the eye and from a point", async () => {
     const dark = await picture();
     await expectEachDiffers([

@@ -1,7 +1,14 @@
 import { create } from "@bufbuild/protobuf";
 import { describe, expect, it } from "vitest";
 import { Integrator, LayerSchema, MeshEvaluator, RayModel } from "../net/gen/volcast/v1/scene_pb";
-import { evaluatorsOf, factsOf, fittedTo, usesColours, usesExtinction } from "./models";
+import {
+  evaluatorsOf,
+  factsOf,
+  fittedTo,
+  usesColours,
+  usesExtinction,
+  voxelIntegratorsOf,
+} from "./models";
 
 const kModels = Object.values(RayModel).filter(
   (m): m is RayModel => typeof m === "number" && m !== RayModel.UNSPECIFIED,
@@ -67,6 +74,14 @@ describe("ray models", () => {
 });
 
 describe("choices by name", () => {
+  it("of voxels are those that the server has for them", () => {
+    expect(voxelIntegratorsOf(RayModel.VOLUME)).not.toContain(Integrator.PSI_TABLE);
+    expect(voxelIntegratorsOf(RayModel.VOLUME)).toContain(Integrator.ADAPTIVE);
+    expect(voxelIntegratorsOf(RayModel.XRAY)).toContain(Integrator.ADAPTIVE);
+    expect(voxelIntegratorsOf(RayModel.MIP_COLOUR)).toEqual([Integrator.ENDS, Integrator.EXACT]);
+    expect(voxelIntegratorsOf(RayModel.MIP)).toEqual([]);
+  });
+
   it("stay with a model that they serve, and go back to automatic with others", () => {
     const layer = create(LayerSchema, {
       model: RayModel.XRAY,

@@ -135,6 +135,23 @@ const kFacts: ReadonlyMap<RayModel, ModelFacts> = new Map([
   ],
 ]);
 
+const kVolumeOfVoxels = [
+  Integrator.AVERAGE,
+  Integrator.PREINTEGRATED,
+  Integrator.LINEAR_OPACITY,
+  Integrator.PSI,
+  Integrator.EXACT,
+  Integrator.ADAPTIVE,
+];
+
+/** What can be chosen for voxels; empty where there is a single way. */
+export function voxelIntegratorsOf(model: RayModel): readonly Integrator[] {
+  if (model === RayModel.VOLUME || model === RayModel.UNSPECIFIED) return kVolumeOfVoxels;
+  const { integrators } = factsOf(model);
+  if (integrators === kLine) return [...kLine, Integrator.ADAPTIVE];
+  return integrators.length > 1 ? integrators : [];
+}
+
 const kUnknown: ModelFacts = { ...kPlain, name: "", meaning: "" };
 
 /** A model that a newer server has keeps its number for a name. */

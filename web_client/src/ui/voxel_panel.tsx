@@ -1,6 +1,7 @@
-import { RayModel, Sampling } from "../net/gen/volcast/v1/scene_pb";
+import { Integrator, RayModel, Sampling } from "../net/gen/volcast/v1/scene_pb";
 import { changeLayer, endGesture } from "../state/actions";
 import type { AppState } from "../state/app_state";
+import { kIntegratorLabels, voxelIntegratorsOf } from "../state/models";
 import { isRefused } from "../state/refusal";
 import {
   chooseStep,
@@ -59,6 +60,26 @@ function StepOptions({ state }: Props) {
   );
 }
 
+/** How what lies between two samples is added up; code and several channels have one way. */
+function IntegratorOption({ state }: Props) {
+  const layer = state.layer.value;
+  const integrators = layer ? voxelIntegratorsOf(layer.model) : [];
+  if (!layer || layer.shader?.code || layer.channels.length > 0) return null;
+  if (integrators.length === 0) return null;
+  return (
+    <SelectLine
+      label="Integrator"
+      value={layer.integrator}
+      options={[
+        [Integrator.AUTO, "Automatic"],
+        ...integrators.map((i) => [i, kIntegratorLabels[i]] as const),
+      ]}
+      invalid={isRefused(state, "integrator")}
+      take={(integrator) => changeLayer(state, { integrator })}
+    />
+  );
+}
+
 /** How a volume of voxels is sampled and lit. */
 export function VoxelPanel({ state }: Props) {
   const layer = state.layer.value;
@@ -78,6 +99,7 @@ export function VoxelPanel({ state }: Props) {
           take={(sampling) => changeLayer(state, { sampling })}
         />
         {layer.model !== RayModel.CROSS_SECTIONS && <StepOptions state={state} />}
+        <IntegratorOption state={state} />
         {isAbsorbing(layer) && (
           <SliderField
             label="Gain"
