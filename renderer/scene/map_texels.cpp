@@ -32,18 +32,34 @@ glm::vec4 slope(const ControlPoint& from, const ControlPoint& to) {
     return ratio;
 }
 
+/// The points between which a piece runs; the same one twice for those at both ends.
+std::pair<const ControlPoint*, const ControlPoint*> endsOf(const std::vector<ControlPoint>& points,
+                                                           std::size_t piece) {
+    return {&points[piece == 0 ? 0 : piece - 1], &points[std::min(piece, points.size() - 1)]};
+}
+
+/// For each piece the value below which nothing from the piece's begin on has extinction.
+std::vector<float> transparentUpTo(const std::vector<ControlPoint>& points) {
+    std::vector<float> ends(points.size() + 1, kHuge);
+    float end = kHuge;
+    for (std::size_t piece = points.size() + 1; piece-- > 0;) {
+        const auto [from, to] = endsOf(points, piece);
+        const bool absorbs = from->extinction > 0.0F || to->extinction > 0.0F;
+        if (absorbs) end = piece == 0 ? -kHuge : from->value;
+        ends[piece] = absorbs ? -kHuge : end;
+    }
+    return ends;
+}
+
 void appendPieces(const std::vector<ControlPoint>& points, std::vector<glm::vec4>& texels) {
-    float withExtinction = 0.0F;
+    const std::vector<float> transparent = transparentUpTo(points);
     for (std::size_t piece = 0; piece <= points.size(); ++piece) {
         const bool inner = piece > 0 && piece < points.size();
-        const ControlPoint& from = points[piece == 0 ? 0 : piece - 1];
-        const ControlPoint& to = points[std::min(piece, points.size() - 1)];
-        const float below = withExtinction;
-        if (from.extinction > 0.0F || to.extinction > 0.0F) withExtinction += 1.0F;
-        texels.push_back(matter(from));
-        texels.push_back(inner ? slope(from, to) : glm::vec4(0.0F));
+        const auto [from, to] = endsOf(points, piece);
+        texels.push_back(matter(*from));
+        texels.push_back(inner ? slope(*from, *to) : glm::vec4(0.0F));
         const float end = piece < points.size() ? points[piece].value : kHuge;
-        texels.emplace_back(from.value, below, withExtinction, end);
+        texels.emplace_back(from->value, transparent[piece], 0.0F, end);
     }
 }
 

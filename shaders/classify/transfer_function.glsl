@@ -25,7 +25,7 @@
 //   then the pieces of f, each 3 texels, and its grid; then the sections
 //   piece: 0  colour and extinction where it begins
 //          1  their slopes
-//          2  x: value where it begins, y: pieces with extinction below, z: up to it, w: its end
+//          2  x: value where it begins, y: below it nothing has extinction from there on, w: its end
 //   grid:  a texel a cell: x, y: the lowest and the highest piece in it
 #include "shared/bindings.glsl"
 
@@ -165,10 +165,6 @@ vec4 matterAt(float f, float g) {
     return kTwoMaps ? vec4(matter.rgb, max(densityValue(g).a, 0.0)) : matter;
 }
 
-// Both texels are fetched within the comparison: with one in a variable before, NVIDIA's compiler
-// (580.159.04) takes the comparison for true.
 bool transparentBetween(float lo, float hi) {
-    int texel = kMapPieces + 2;
-    int first = pointsUpTo(lo), last = pointsUpTo(hi);
-    return texelFetch(mapTexels, texel + 3 * last).z == texelFetch(mapTexels, texel + 3 * first).y;
+    return hi < texelFetch(mapTexels, kMapPieces + 2 + 3 * pointsUpTo(lo)).y;
 }
