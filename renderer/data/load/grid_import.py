@@ -5,6 +5,7 @@ short without a word.
 """
 
 import bz2
+import errno
 import gzip
 import math
 import mmap
@@ -49,6 +50,8 @@ def mapped_bytes(path, offset=0):
         with open(path, "rb") as file:
             whole = mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ)
     except OSError as error:
+        if error.errno == errno.ENOMEM:  # Addresses are limited as memory is.
+            raise MemoryError from error
         raise Refusal(f"its data file {os.path.basename(path)}: {error.strerror}", IO) from error
     except ValueError:  # It is empty.
         return b""
