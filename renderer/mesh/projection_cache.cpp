@@ -1,6 +1,5 @@
 #include "renderer/mesh/projection_cache.h"
 
-#include <array>
 #include <span>
 
 #include "renderer/mesh/mesh_buffers.h"
@@ -17,7 +16,7 @@ Result<void> ProjectionCache::prepare(const DrawInputs& inputs, bool sorted) {
     if (sorted) {
         if (auto done = sort(inputs); !done) return done;
     }
-    return makeShares(inputs);
+    return shares_.fit(*inputs.device, inputs.size, "shares of cells");
 }
 
 Result<void> ProjectionCache::prepareLevels(const DrawInputs& inputs) {
@@ -68,20 +67,6 @@ Result<void> ProjectionCache::sort(const DrawInputs& inputs) {
     }
     cells_.update(0, std::as_bytes(order));
     orderCamera_ = camera_.version();
-    return {};
-}
-
-Result<void> ProjectionCache::makeShares(const DrawInputs& inputs) {
-    if (shares_.size() == inputs.size) return {};
-    auto shares = gpu::Texture2D::create(
-        *inputs.device,
-        {.size = inputs.size, .format = gpu::PixelFormat::kRgba32F, .label = "shares of cells"});
-    if (!shares) return shares.error();
-    const std::array colours{&*shares};
-    auto target = gpu::Target::create(*inputs.device, "shares of cells", colours);
-    if (!target) return target.error();
-    shareTarget_ = std::move(*target);
-    shares_ = std::move(*shares);
     return {};
 }
 

@@ -4,8 +4,7 @@
 #include <optional>
 
 #include "renderer/gpu/buffer.h"
-#include "renderer/gpu/target.h"
-#include "renderer/gpu/texture2d.h"
+#include "renderer/gpu/canvas.h"
 #include "renderer/mesh/camera_vertices.h"
 #include "renderer/mesh/level_cells.h"
 #include "renderer/mesh/projection.h"
@@ -30,7 +29,7 @@ public:
     [[nodiscard]] const LevelCells& levels() const noexcept { return levels_; }
 
     /// What shares of cells are blended in.
-    [[nodiscard]] const gpu::Target& shares() const noexcept { return shareTarget_; }
+    [[nodiscard]] const gpu::Target& shares() const noexcept { return shares_.target(); }
     void bindShares() const;
 
     [[nodiscard]] OrderReport order() const override;
@@ -43,7 +42,6 @@ public:
 private:
     Result<void> findCorners(const DrawInputs& inputs);
     Result<void> sort(const DrawInputs& inputs);
-    Result<void> makeShares(const DrawInputs& inputs);
 
     CameraVertices camera_;
     std::optional<VisibilityOrder> order_;
@@ -54,8 +52,7 @@ private:
     gpu::Buffer corners_, cells_;
     LevelCells levels_;
     std::uint64_t cornersMesh_ = 0;
-    gpu::Texture2D shares_;
-    gpu::Target shareTarget_;
+    gpu::Canvas shares_;
 };
 
 }  // namespace volcast::mesh

@@ -1,8 +1,7 @@
 #include "renderer/scene/channel_table.h"
 
-#include <span>
-
 #include "renderer/scene/map_texels.h"
+#include "renderer/scene/texel_buffer.h"
 #include "renderer/shading/shared.h"
 
 namespace volcast::scene {
@@ -23,20 +22,8 @@ Result<void> ChannelTable::set(gpu::Device& device,
                                const std::vector<data::TransferFunction>& maps) {
     if (buffer_.valid() && maps == maps_) return {};
     const ChannelTexels table = channelTexels(maps);
-    const auto bytes = std::as_bytes(std::span{table.texels});
-    if (buffer_.bytes() >= bytes.size()) {
-        buffer_.update(0, bytes);
-    } else {
-        // Room for a few more points, so that adding one while editing stays an update.
-        Result<gpu::Buffer> buffer = gpu::Buffer::create(device,
-                                                         {.bytes = bytes.size() * 2,
-                                                          .updatable = true,
-                                                          .texels = gpu::TexelFormat::kRgba32F,
-                                                          .label = "maps of channels"},
-                                                         bytes);
-        if (!buffer) return buffer.error();
-        buffer_ = std::move(*buffer);
-    }
+    const Result<void> filled = refill(device, buffer_, table.texels, "maps of channels");
+    if (!filled) return filled;
     maps_ = maps;
     search_ = table.search;
     return {};

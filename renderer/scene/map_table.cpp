@@ -1,8 +1,6 @@
 #include "renderer/scene/map_table.h"
 
-#include <algorithm>
-#include <span>
-
+#include "renderer/scene/texel_buffer.h"
 #include "renderer/shading/shared.h"
 
 namespace volcast::scene {
@@ -16,20 +14,8 @@ constexpr std::size_t kHeaderBytes = kMapHeaderTexels * sizeof(glm::vec4);
 Result<void> MapTable::set(gpu::Device& device, const MapContent& content) {
     if (buffer_.valid() && content == content_) return {};
     const MapTexels table = mapTexels(content);
-    const auto bytes = std::as_bytes(std::span{table.texels});
-    if (buffer_.bytes() >= bytes.size()) {
-        buffer_.update(0, bytes);
-    } else {
-        // Room for a few more points, so that adding one while editing stays an update.
-        Result<gpu::Buffer> buffer = gpu::Buffer::create(device,
-                                                         {.bytes = bytes.size() * 2,
-                                                          .updatable = true,
-                                                          .texels = gpu::TexelFormat::kRgba32F,
-                                                          .label = "transfer function"},
-                                                         bytes);
-        if (!buffer) return buffer.error();
-        buffer_ = std::move(*buffer);
-    }
+    const Result<void> filled = refill(device, buffer_, table.texels, "transfer function");
+    if (!filled) return filled;
     content_ = content;
     search_ = table.search;
     densitySearch_ = table.densitySearch;

@@ -61,13 +61,9 @@ std::vector<glm::vec2> along(std::span<const glm::vec2> ranges, std::size_t stri
 
 }  // namespace
 
-glm::ivec3 rangeGrid(glm::ivec3 size) noexcept {
-    return (size - 1) / kRangeBlock + 1;
-}
-
 std::vector<glm::vec2> blockRanges(const data::Volume& volume, const data::Channel& channel) {
     const glm::ivec3 size = volume.size;
-    const glm::ivec3 grid = rangeGrid(size);
+    const glm::ivec3 grid = (size - 1) / kRangeBlock + 1;
     const auto rows = [&] {
         switch (volume.type) {
             case data::VoxelType::kU8:

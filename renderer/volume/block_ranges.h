@@ -15,10 +15,7 @@ namespace volcast::volume {
 inline constexpr int kRangeBlock = 4;
 inline constexpr int kRangeReach = 4;
 
-/// Blocks along each axis.
-glm::ivec3 rangeGrid(glm::ivec3 size) noexcept;
-
-/// (smallest, largest) value of each block, x fastest. Takes 2 to 3 ns a voxel.
+/// (smallest, largest) value of each block, x fastest.
 std::vector<glm::vec2> blockRanges(const data::Volume& volume, const data::Channel& channel);
 
 }  // namespace volcast::volume

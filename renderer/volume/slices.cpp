@@ -1,7 +1,6 @@
 #include "renderer/volume/slices.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "renderer/mesh/combine_state.h"
@@ -19,20 +18,6 @@ glm::vec4 vector(const glm::dvec3& xyz, double w) {
 }
 
 }  // namespace
-
-Result<void> SlicesState::fit(gpu::Device& device, glm::ivec2 size) {
-    if (shares_.size() == size) return {};
-    constexpr const char* kLabel = "shares of slices";
-    auto shares = gpu::Texture2D::create(
-        device, {.size = size, .format = gpu::PixelFormat::kRgba32F, .label = kLabel});
-    if (!shares) return shares.error();
-    const std::array colours{&*shares};
-    auto target = gpu::Target::create(device, kLabel, colours);
-    if (!target) return target.error();
-    target_ = std::move(*target);
-    shares_ = std::move(*shares);
-    return {};
-}
 
 Result<void> SlicesState::send(gpu::Device& device, const shading::shared::SliceBlock& block) {
     if (!block_.valid()) {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "renderer/gpu/buffer.h"
-#include "renderer/gpu/texture2d.h"
+#include "renderer/gpu/canvas.h"
 #include "renderer/shading/shared.h"
 #include "renderer/volume/march.h"
 
@@ -13,16 +13,17 @@ public:
     /// Makes room for pictures of `size`.
     ///
     /// Errors: kOutOfGpuMemory.
-    Result<void> fit(gpu::Device& device, glm::ivec2 size);
+    Result<void> fit(gpu::Device& device, glm::ivec2 size) {
+        return shares_.fit(device, size, "shares of slices");
+    }
     Result<void> send(gpu::Device& device, const shading::shared::SliceBlock& block);
 
-    [[nodiscard]] const gpu::Target& target() const noexcept { return target_; }
+    [[nodiscard]] const gpu::Target& target() const noexcept { return shares_.target(); }
     void bindBlock() const noexcept { block_.bindUniform(shading::shared::kSliceBinding); }
     void bindShares() const noexcept { shares_.bind(shading::shared::kShareUnit); }
 
 private:
-    gpu::Texture2D shares_;
-    gpu::Target target_;
+    gpu::Canvas shares_;
     gpu::Buffer block_;
 };
 
