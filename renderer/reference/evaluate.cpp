@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 
+#include "renderer/reference/shown.h"
 #include "renderer/reference/surface.h"
 #include "renderer/reference/voxel_layer.h"
 #include "renderer/scene/ray_models.h"
@@ -36,35 +37,10 @@ std::uint64_t entries(std::span<const Part> parts) {
 /// What a layer that ends no rays shows of its parts.
 glm::dvec4 gathered(const LayerData& data, std::span<const Part> parts,
                     std::vector<double>& bends) {
-    const scene::Layer& layer = *data.layer;
-    switch (layer.model) {
-        case scene::RayModel::kVolume:
-            return volume(parts, {.colour = &data.colour, .extinction = &data.extinction}, bends);
-        case scene::RayModel::kXray: {
-            const double depth = opticalDepth(parts, data.extinction, bends);
-            return {glm::dvec3{std::exp(-layer.extinctionScale * depth)}, 1.0};
-        }
-        case scene::RayModel::kSplat:
-            return {std::exp2(static_cast<double>(layer.exposure)) *
-                        colourIntegral(parts, data.colour, bends),
-                    0.0};
-        case scene::RayModel::kMipColour: {
-            const auto largest = largestColour(parts, data.colour);
-            return largest ? glm::dvec4{*largest, 1.0} : glm::dvec4{0.0};
-        }
-        case scene::RayModel::kMip:
-        case scene::RayModel::kMinip: {
-            const auto found = extremes(parts);
-            if (!found) return glm::dvec4{0.0};
-            const bool max = layer.model == scene::RayModel::kMip;
-            return {glm::dvec3{data.colour.at(max ? found->max : found->min)}, 1.0};
-        }
-        case scene::RayModel::kCrossSections:
-        case scene::RayModel::kSurface:
-        case scene::RayModel::kWireframe:
-        case scene::RayModel::kIsosurface: break;
+    if (data.layer->model != scene::RayModel::kVolume) {
+        return shownWithoutVolume(data, parts, bends);
     }
-    return glm::dvec4{0.0};
+    return volume(parts, {.colour = &data.colour, .extinction = &data.extinction}, bends);
 }
 
 /// Fills in the pieces of a ray that meet the layer's data.

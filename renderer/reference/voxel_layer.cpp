@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "renderer/reference/shown.h"
+
 namespace volcast::reference {
 namespace {
 
@@ -33,37 +35,10 @@ double facingSlope(const VoxelGrid& grid, const Ray& ray, double distance) {
 
 glm::dvec4 gathered(const LayerData& data, const Ray& ray, std::span<const VoxelPiece> pieces) {
     const scene::Layer& layer = *data.layer;
-    switch (layer.model) {
-        case scene::RayModel::kVolume: {
-            LightAt light;
-            if (layer.light) light = lightOn(*data.grid, ray, *layer.light);
-            return volume(pieces, {.colour = &data.colour, .extinction = &data.extinction}, light);
-        }
-        case scene::RayModel::kXray: {
-            const double depth = opticalDepth(pieces, data.extinction);
-            return {glm::dvec3{std::exp(-layer.extinctionScale * depth)}, 1.0};
-        }
-        case scene::RayModel::kSplat:
-            return {std::exp2(static_cast<double>(layer.exposure)) *
-                        colourIntegral(pieces, data.colour),
-                    0.0};
-        case scene::RayModel::kMipColour: {
-            const auto largest = largestColour(pieces, data.colour);
-            return largest ? glm::dvec4{*largest, 1.0} : glm::dvec4{0.0};
-        }
-        case scene::RayModel::kMip:
-        case scene::RayModel::kMinip: {
-            const auto found = extremes(pieces);
-            if (!found) return glm::dvec4{0.0};
-            const bool max = layer.model == scene::RayModel::kMip;
-            return {glm::dvec3{data.colour.at(max ? found->max : found->min)}, 1.0};
-        }
-        case scene::RayModel::kCrossSections:
-        case scene::RayModel::kSurface:
-        case scene::RayModel::kWireframe:
-        case scene::RayModel::kIsosurface: break;
-    }
-    return glm::dvec4{0.0};
+    if (layer.model != scene::RayModel::kVolume) return shownWithoutVolume(data, pieces);
+    LightAt light;
+    if (layer.light) light = lightOn(*data.grid, ray, *layer.light);
+    return volume(pieces, {.colour = &data.colour, .extinction = &data.extinction}, light);
 }
 
 }  // namespace volcast::reference
