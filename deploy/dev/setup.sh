@@ -14,14 +14,15 @@ packages=(
     # libraries
     libegl-dev libegl1 libegl-mesa0 libgl1-mesa-dri libgl-dev libepoxy-dev libglm-dev
     libopenimageio-dev libtet1.5-dev libboost1.81-dev libprotobuf-dev libturbojpeg0-dev
-    libdeflate-dev libcli11-dev libspdlog-dev libseccomp-dev glslang-dev
+    libdeflate-dev libcli11-dev libspdlog-dev libseccomp-dev glslang-dev libssl-dev
+    libavcodec-dev libavutil-dev libswscale-dev libwebp-dev libxxhash-dev prometheus-cpp-dev
     # read by volcast-import
     python3-vtk9 python3-meshio python3-h5py python3-numpy
     # the build, googletest and benchmark included: one configuration for users and tests
     libgtest-dev libgmock-dev libbenchmark-dev libpng-dev
 )
 if [ "${1:-}" = --test ]; then
-    packages+=(chromium clang-format-14 glslang-tools)
+    packages+=(chromium clang-format-14 glslang-tools python3-websockets)
 fi
 # Any Node.js from 18 on will do; Debian 12's own is 18.
 node_major=$(node --version 2>/dev/null | sed 's/^v\([0-9]*\).*/\1/' || true)
