@@ -11,12 +11,6 @@ namespace {
 using scene::Layer;
 using scene::RayModel;
 
-/// Steps on a ray that all loops of a pixel have room for.
-int mostSteps(scene::Integrator method) {
-    if (method == scene::Integrator::kAdaptive) return kMaxRayPieces / kMaxRoundsAStep;
-    return method == scene::Integrator::kExact ? kMaxRayPieces : kMaxRaySamples;
-}
-
 /// How far the data's bounds reach along the view, world units.
 double depthOf(const data::Box& bounds, const scene::Camera& camera) {
     const glm::dvec3 forward = glm::normalize(camera.center - camera.eye);
@@ -37,13 +31,13 @@ void planStep(LayerPlan& plan, const Matter& matter, const scene::Camera& camera
     const glm::dvec3 spacing = matter.summary.spacing;
     const double wanted = wantedStep(matter, camera);
     const double longest = glm::length(spacing * glm::dvec3(matter.summary.voxels - 1));
-    const double smallest = longest / mostSteps(plan.method);
+    const int most = mostSteps(plan.method, rayLimits(false, 0));
+    const double smallest = longest / most;
     plan.stepWorld = std::max(wanted, smallest);
     const bool enlarged = wanted < smallest;
     add(plan, kStepEnlarged, enlarged,
-        enlarged ? "a step of " + number(wanted) + " needs more than " +
-                       std::to_string(mostSteps(plan.method)) + " samples on a ray: drawn with " +
-                       number(smallest)
+        enlarged ? "a step of " + number(wanted) + " needs more than " + std::to_string(most) +
+                       " samples on a ray: drawn with " + number(smallest)
         : matter.layer.depthSamples > 0
             ? std::to_string(matter.layer.depthSamples) + " samples over the depth of the data"
             : "the step is as asked for");
@@ -81,9 +75,6 @@ void planChannels(LayerPlan& plan, const Layer& layer) {
 }
 
 void planBricks(LayerPlan& plan, const Matter& matter) {
-    if (plan.has(kChannels)) {
-        return add(plan, kEmptyBricks, false, "bricks of several channels are not compared");
-    }
     const glm::ivec3 intervals = matter.summary.voxels - 1;
     const bool several =
         std::max({intervals.x, intervals.y, intervals.z}) > data::Volume::kBrickSize;
@@ -100,6 +91,20 @@ void planBricks(LayerPlan& plan, const Matter& matter) {
     } else {
         add(plan, kEmptyBricks, true, "the map has no extinction in a part of the data's range");
     }
+}
+
+void planMissing(LayerPlan& plan, const Matter& matter) {
+    std::uint64_t count = matter.field == nullptr ? 0 : matter.field->voxelsWithoutValue;
+    if (!matter.layer.channels.empty()) {
+        count = 0;
+        for (const scene::ChannelMap* channel : scene::shownChannels(matter.layer)) {
+            count += scene::findField(matter.summary, channel->field)->voxelsWithoutValue;
+        }
+    }
+    add(plan, kVoxelsWithoutValue, count > 0,
+        count > 0 ? "nothing is drawn where " + std::to_string(count) +
+                        " voxel(s) without a value (NaN) would count"
+                  : "every voxel has a value");
 }
 
 Evaluator evaluatorFor(scene::VoxelEvaluator evaluator) {
@@ -123,6 +128,7 @@ void planLight(LayerPlan& plan, const Layer& volume) {
     const bool lit = volume.light.has_value();
     add(plan, kLight, lit,
         !lit                     ? "matter emits its colour alone, so no gradient is needed"
+        : plan.has(kChannels)    ? "each channel is lit by the slope of its own field"
         : volume.light->position ? "lit from a point of the world"
                                  : "lit from the eye");
 }
@@ -142,12 +148,18 @@ void planUserShader(LayerPlan& plan, const Matter& matter, const scene::Camera& 
 
 }  // namespace
 
+int mostSteps(scene::Integrator method, const RayLimits& limits) {
+    if (method == scene::Integrator::kAdaptive) return limits.pieces / kMaxRoundsAStep;
+    return method == scene::Integrator::kExact ? limits.pieces : limits.samples;
+}
+
 void planVoxels(LayerPlan& plan, const Matter& matter, const scene::Scene& scene,
                 std::span<const Evidence> evidence) {
     plan.evaluator = evaluatorFor(matter.layer.voxelEvaluator);
     plan.integrator = "march";
     planChannels(plan, matter.layer);
     planInterpolation(plan, matter.layer);
+    planMissing(plan, matter);
     if (!matter.layer.shader.code.empty()) return planUserShader(plan, matter, scene.camera);
     add(plan, kUserShader, false, "the map says what a sample shows");
     planVoxelMethod(plan, matter, scene.accuracy, evidence);
@@ -168,6 +180,7 @@ void planCrossSections(LayerPlan& plan, const Matter& matter) {
     plan.evaluator = Evaluator::kCrossSections;
     plan.integrator = "planes";
     planInterpolation(plan, matter.layer);
+    planMissing(plan, matter);
     add(plan, kEndsAtSurfaces, false, "opaque layers share one depth");
 }
 

@@ -78,6 +78,7 @@ struct MarchTraits {
     bool shaded = false;  ///< Volumes, at their samples.
     bool interval = false;
     bool jitters = false;  ///< Samples are not in the middle of their steps.
+    bool missing = false;  ///< Some voxels have no value.
     int clipPlanes = 0;
     FieldTraits field = {};
 };
@@ -103,6 +104,7 @@ struct UserTraits {
     int clipPlanes = 0;
     int otherChannels = 0;
     int iterations = 0;
+    bool missing = false;
 };
 
 shading::Recipe userRecipe(const UserTraits& traits, std::vector<shading::TextChunk> texts,

@@ -13,6 +13,7 @@ shading::Recipe userRecipe(const UserTraits& traits, std::vector<shading::TextCh
                       {"kEarlyStop", gathers},
                       {"kLargestCounts", traits.model == scene::RayModel::kMip},
                       {"kInterval", traits.interval},
+                      {"kMissing", traits.missing},
                       {"kClipPlanes", traits.clipPlanes},
                       {"kClipsAtStart", true},
                       {"kOtherChannels", traits.otherChannels},
@@ -33,7 +34,8 @@ Result<void> drawUserCode(const DrawInputs& inputs, const UserInputs& user) {
                             .interval = inputs.plan->has(plan::kInterval),
                             .clipPlanes = inputs.clipPlanes,
                             .otherChannels = static_cast<int>(user.channels.size()) - 1,
-                            .iterations = user.iterations};
+                            .iterations = user.iterations,
+                            .missing = inputs.plan->has(plan::kVoxelsWithoutValue)};
     const Result<const gpu::Program*> program =
         inputs.programs->ray(userRecipe(traits, user.texts, inputs.constants));
     if (!program) return program.error();

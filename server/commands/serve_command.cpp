@@ -110,7 +110,8 @@ void addLimits(CLI::App& command, ServeSettings& settings) {
         .add_option_function<std::uint64_t>(
             "--volume-budget",
             [&settings](std::uint64_t mib) { settings.render.volumeBudgetBytes = mib << 20U; },
-            "MiB of GPU memory: a channel of voxels that takes more is drawn from bricks "
+            "MiB of GPU memory for all voxels of a scene: those that take more are drawn from "
+            "bricks "
             "(default 1024)")
         ->check(CLI::Range(workers::kLeastVolumeBudgetMib, workers::kMostVolumeBudgetMib));
 }

@@ -113,7 +113,7 @@ describe("the distance of samples", () => {
     expect(layer().stepWorld).toBeCloseTo(0.05, 12);
     expect(stepKindOf(layer())).toBe("length");
     chooseStep(state, "count");
-    expect(layer()).toMatchObject({ depthSamples: 256, stepWorld: 0 });
+    expect(layer()).toMatchObject({ depthSamples: 64, stepWorld: 0 });
     chooseStep(state, "usual");
     expect(layer()).toMatchObject({ depthSamples: 0, stepWorld: 0 });
   });

@@ -126,7 +126,7 @@ export function stepKindOf({ depthSamples, stepWorld }: Layer): StepKind {
   return stepWorld > 0 ? "length" : "usual";
 }
 
-const kUsualSamples = 256;
+const kUsualSamples = 64;
 
 /** Another way to say the distance of samples, with a value to start from. */
 export function chooseStep(state: AppState, kind: StepKind): void {
