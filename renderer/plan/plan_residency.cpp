@@ -2,6 +2,7 @@
 
 #include "renderer/plan/effects.h"
 #include "renderer/plan/matter.h"
+#include "renderer/scene/user_controls.h"
 
 namespace volcast::plan {
 namespace {
@@ -54,7 +55,9 @@ void planResidency(LayerPlan& plan, const Matter& matter, const Limits& limits) 
     const std::uint64_t bytes = residentBytes(matter.summary);
     const std::string taken = "a channel takes " + mib(bytes) + " of GPU memory, " +
                               mib(limits.volumeBytes) + " are allowed";
-    const bool alone = matter.layer.channels.empty() && matter.layer.shader.code.empty();
+    const bool alone =
+        matter.layer.channels.empty() &&
+        (bytes <= limits.volumeBytes || !scene::readsOtherChannels(matter.layer, matter.summary));
     const bool known =
         plan.evaluator == Evaluator::kVolumeMarch || plan.evaluator == Evaluator::kCrossSections;
     if (bytes <= limits.volumeBytes) {
@@ -63,8 +66,7 @@ void planResidency(LayerPlan& plan, const Matter& matter, const Limits& limits) 
         add(plan, kBricks, false, "the volume is too small to have coarser levels");
     } else if (!alone || !known) {
         add(plan, kBricks, false,
-            taken + ", but " + (known ? "several channels and users' code need" : "slices need") +
-                " all of it");
+            taken + ", but " + (known ? "several channels need" : "slices need") + " all of it");
     } else {
         add(plan, kBricks, true, taken + ": loaded by bricks of its pyramid");
         limitSamples(plan, matter);

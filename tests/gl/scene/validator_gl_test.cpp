@@ -220,13 +220,13 @@ void Validator::addUserCode() {
                                         .interval = variant >= 36,
                                         .clipPlanes = bit(variant, 2) ? 2 : 0,
                                         .otherChannels = 2};
-        addRay(volume::userRecipe(
-                   traits,
-                   {{.path = user_shader::kValuesChunk, .text = user_shader::valuesText(type)},
-                    {.path = user_shader::kControlsChunk,
-                     .text = user_shader::controlsText(code.controls, {1, 2}, type)},
-                    {.path = user_shader::kBodyChunk, .text = code.body}},
-                   {{"kEndsAtSurfaces", bit(variant, 1)}}),
+        addRay(volume::userRecipe(traits,
+                                  {{.path = user_shader::kValuesChunk,
+                                    .text = user_shader::valuesText(type, true)},
+                                   {.path = user_shader::kControlsChunk,
+                                    .text = user_shader::controlsText(code.controls, {1, 2}, type)},
+                                   {.path = user_shader::kBodyChunk, .text = code.body}},
+                                  {{"kEndsAtSurfaces", bit(variant, 1)}}),
                shading::kFullScreenVertex);
     }
 }
