@@ -16,9 +16,9 @@ using ::testing::HasSubstr;
 
 class UserShaderBricks : public support::UserShaderTest {
 protected:
-    /// 16 bits; 81 voxels a side, which are three bricks.
+    /// 16 bits; 129 voxels a side, 8.2 MiB of the float32 that a whole channel takes.
     static data::Volume waves(int channels = 1) {
-        constexpr int kSide = 81;
+        constexpr int kSide = 129;
         data::VolumeInput input;
         input.size = glm::ivec3(kSide);
         input.type = data::VoxelType::kU16;
@@ -38,15 +38,15 @@ protected:
             channel.voxels.assign(bytes.begin(), bytes.end());
             input.channels.push_back(std::move(channel));
         }
-        return must(data::buildVolume(std::move(input)));
+        return support::must(data::buildVolume(std::move(input)));
     }
 
     /// Holds less than a whole channel; level 0 is needed at the picture's size.
     static std::unique_ptr<scene::Renderer> bricked(const data::Volume& volume) {
         const std::size_t each = volume::BrickPool::brickBytes(volume.type);
-        auto renderer =
-            must(scene::Renderer::create(device(), shading::embeddedChunks(),
-                                         {.volumeBytes = 64 * each, .pictureBytes = 1000 * each}));
+        auto renderer = support::must(
+            scene::Renderer::create(device(), shading::embeddedChunks(),
+                                    {.volumeBytes = 64 * each, .pictureBytes = 1000 * each}));
         renderer->addDataset("volume", volume);
         return renderer;
     }
@@ -55,7 +55,7 @@ protected:
                             RayModel model = RayModel::kVolume) {
         scene::Scene scene = sceneOf(volume, code, model);
         // A pixel is an eighth of a voxel.
-        scene.camera = {.eye = {160, 130, 190}, .center = {40, 40, 40}};
+        scene.camera = {.eye = {180, 150, 210}, .center = {60, 60, 60}};
         scene.camera.projection = scene::Projection::kOrthographic;
         scene.camera.orthographicHeight = 6.0;
         return scene;
@@ -78,7 +78,7 @@ TEST_F(UserShaderBricks, ShowWhatTheWholeVolumeShows) {
             scene.layers[0].sampling = sampling;
             const auto whole = draw(scene, {40, 32});
             EXPECT_FALSE(whole.info.plan.layers[0].has(plan::kBricks));
-            auto parts = must(tryDraw(*renderer, scene, {40, 32}));
+            auto parts = support::must(tryDraw(*renderer, scene, {40, 32}));
             ASSERT_TRUE(parts.info.ready);
             EXPECT_TRUE(parts.info.plan.layers[0].has(plan::kBricks));
             EXPECT_GT(drawnShare(whole), 0.9);
@@ -93,7 +93,7 @@ TEST_F(UserShaderBricks, AMapThatIsTransparentLeavesNoBrickOut) {
     const auto renderer = bricked(volume);
     scene::Scene scene = wavesScene(volume, "void main() { emitRGBA(vec4(0.02)); }");
     scene.layers[0].map.points = {{.value = 0.0F, .colour = {1, 1, 1}, .extinction = 0.0F}};
-    const auto parts = must(tryDraw(*renderer, scene, {16, 16}));
+    const auto parts = support::must(tryDraw(*renderer, scene, {16, 16}));
     ASSERT_EQ(parts.info.bricks.size(), 1U);
     EXPECT_EQ(parts.info.bricks[0].report.hidden, 0U) << "the map is not used";
     EXPECT_LT(largestDifference(parts, draw(scene, {16, 16})), 2e-5);
@@ -104,7 +104,7 @@ TEST_F(UserShaderBricks, CodeThatReadsOtherChannelsNeedsAllOfThem) {
     const auto renderer = bricked(volume);
     scene::Scene scene =
         wavesScene(volume, "void main() { emitGrayscale(0.02 * toNormalized(getDataValue(1))); }");
-    const auto parts = must(tryDraw(*renderer, scene, {16, 16}));
+    const auto parts = support::must(tryDraw(*renderer, scene, {16, 16}));
     EXPECT_FALSE(parts.info.plan.layers[0].has(plan::kBricks));
     EXPECT_EQ(largestDifference(parts, draw(scene, {16, 16})), 0.0);
 }
