@@ -7,7 +7,6 @@
 #include "gtest/gtest.h"
 
 #include "renderer/scene/ray_models.h"
-#include "renderer/scene/ray_models.h"
 #include "renderer/scene/validate.h"
 
 namespace volcast::scene {
