@@ -54,8 +54,14 @@ void planHeadlight(LayerPlan& plan, const scene::Layer& isosurface);
 /// What is known of the method chosen.
 void planEvidence(LayerPlan& plan, std::span<const Evidence> evidence);
 
+/// The step that a layer names, world units; 0: none.
+double askedStep(const Matter& matter, const scene::Camera& camera);
+/// A user's code in the place of the map, on any data; and all else of it on a mesh.
+void planCode(LayerPlan& plan, const Matter& matter);
+void planMeshCode(LayerPlan& plan, const Matter& matter, const scene::Camera& camera);
+
 /// Rays through a mesh.
-void planMeshRays(LayerPlan& plan, const Matter& matter, const scene::Accuracy& wish,
+void planMeshRays(LayerPlan& plan, const Matter& matter, const scene::Scene& scene,
                   std::span<const Evidence> evidence);
 /// Boundary faces.
 void planSurface(LayerPlan& plan, const Matter& matter);

@@ -27,6 +27,10 @@ void planVisible(LayerPlan& plan, const Matter& matter) {
     } else if (!matter.layer.channels.empty() && scene::shownChannels(matter.layer).empty()) {
         plan.drawn = false;
         add(plan, kVisible, false, "all of its channels are hidden");
+    } else if (matter.layer.model == RayModel::kCrossSections &&
+               !glm::any(matter.layer.crossSections.shown)) {
+        plan.drawn = false;
+        add(plan, kVisible, false, "none of the three planes is shown");
     } else if (!matter.layer.shader.code.empty()) {
         add(plan, kVisible, true, "nobody knows what the code shows before it runs");
     } else if (matter.layer.model == RayModel::kVolume && matter.extinction.max <= 0.0F) {
@@ -38,10 +42,6 @@ void planVisible(LayerPlan& plan, const Matter& matter) {
                scene::levelsOf(matter.layer).empty()) {
         plan.drawn = false;
         add(plan, kVisible, false, "no level is in the interval");
-    } else if (matter.layer.model == RayModel::kCrossSections &&
-               !glm::any(matter.layer.crossSections.shown)) {
-        plan.drawn = false;
-        add(plan, kVisible, false, "none of the three planes is shown");
     } else {
         add(plan, kVisible, true, "the layer is shown");
     }
@@ -120,7 +120,7 @@ LayerPlan planLayer(const scene::Scene& scene, const Layer& layer, const Dataset
         return plan;
     }
     if (summary.isMesh) {
-        planMeshRays(plan, matter, scene.accuracy, evidence);
+        planMeshRays(plan, matter, scene, evidence);
     } else {
         planVoxels(plan, matter, scene, evidence);
         planResidency(plan, matter, limits, all);

@@ -5,6 +5,7 @@
 #include "renderer/plan/matter.h"
 #include "renderer/scene/channels.h"
 #include "renderer/scene/layer_fields.h"
+#include "renderer/scene/user_controls.h"
 
 namespace volcast::plan {
 namespace {
@@ -93,7 +94,9 @@ void planResidency(LayerPlan& plan, const Matter& matter, const Limits& limits,
         (all.wholes == 1 ? "its voxels take "
                          : "the voxels of " + std::to_string(all.wholes) + " layers take ") +
         mib(bytes) + " of GPU memory, " + mib(limits.volumeBytes) + " are allowed";
-    const bool alone = matter.layer.channels.empty() && matter.layer.shader.code.empty();
+    const bool alone =
+        matter.layer.channels.empty() &&
+        (bytes <= limits.volumeBytes || !scene::readsOtherChannels(matter.layer, matter.summary));
     const bool known =
         plan.evaluator == Evaluator::kVolumeMarch || plan.evaluator == Evaluator::kCrossSections;
     if (bytes <= limits.volumeBytes) {
@@ -102,8 +105,7 @@ void planResidency(LayerPlan& plan, const Matter& matter, const Limits& limits,
         add(plan, kBricks, false, "the volume is too small to have coarser levels");
     } else if (!alone || !known) {
         add(plan, kBricks, false,
-            taken + ", but " + (known ? "several channels and users' code need" : "slices need") +
-                " all of it");
+            taken + ", but " + (known ? "several channels need" : "slices need") + " all of it");
     } else {
         add(plan, kBricks, true, taken + ": loaded by bricks of its pyramid");
         limitSamples(plan, matter);

@@ -11,20 +11,11 @@ namespace {
 using scene::Layer;
 using scene::RayModel;
 
-/// How far the data's bounds reach along the view, world units.
-double depthOf(const data::Box& bounds, const scene::Camera& camera) {
-    const glm::dvec3 forward = glm::normalize(camera.center - camera.eye);
-    return glm::dot(glm::abs(forward), bounds.max - bounds.min);
-}
-
 /// The step that a layer asks for, world units.
 double wantedStep(const Matter& matter, const scene::Camera& camera) {
-    if (matter.layer.depthSamples > 0) {
-        return depthOf(matter.summary.bounds, camera) / matter.layer.depthSamples;
-    }
+    const double asked = askedStep(matter, camera);
     const glm::dvec3 spacing = matter.summary.spacing;
-    return matter.layer.stepWorld > 0.0 ? matter.layer.stepWorld
-                                        : 0.5 * std::min({spacing.x, spacing.y, spacing.z});
+    return asked > 0.0 ? asked : 0.5 * std::min({spacing.x, spacing.y, spacing.z});
 }
 
 void planStep(LayerPlan& plan, const Matter& matter, const scene::Camera& camera) {
@@ -136,14 +127,9 @@ void planLight(LayerPlan& plan, const Layer& volume) {
 /// A user's code in the place of the map.
 void planUserShader(LayerPlan& plan, const Matter& matter, const scene::Camera& camera) {
     plan.evaluator = Evaluator::kVolumeMarch;
-    plan.integrator = "user shader";
-    plan.method = scene::Integrator::kAverage;
-    add(plan, kUserShader, true, "the layer's code says what a sample shows; its map is not used");
+    planCode(plan, matter);
     planStep(plan, matter, camera);
     add(plan, kEmptyBricks, false, "nobody knows what the code shows of a brick's values");
-    const bool gathers = matter.layer.model == RayModel::kVolume;
-    add(plan, kEarlyStop, gathers,
-        gathers ? "a ray may get opaque on its way" : "every sample may have the extreme");
 }
 
 }  // namespace
@@ -181,6 +167,10 @@ void planCrossSections(LayerPlan& plan, const Matter& matter) {
     plan.integrator = "planes";
     planInterpolation(plan, matter.layer);
     planMissing(plan, matter);
+    const bool code = !matter.layer.shader.code.empty();
+    add(plan, kUserShader, code,
+        code ? "the layer's code says what a plane shows; its map is not used"
+             : "the map says what a plane shows");
     add(plan, kEndsAtSurfaces, false, "opaque layers share one depth");
 }
 

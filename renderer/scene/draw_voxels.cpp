@@ -68,9 +68,9 @@ Result<void> prepareBricks(DrawContext& context, const Frame& frame, LayerDraw& 
 
 Result<void> prepareVoxels(DrawContext& context, const Frame& frame, LayerDraw& draw) {
     draw.state->brickReport.reset();
+    if (draw.plan->has(plan::kBricks)) return prepareBricks(context, frame, draw);
     if (draw.code) return prepareRawChannels(context, draw);
     if (!draw.layer->channels.empty()) return prepareChannels(context, draw);
-    if (draw.plan->has(plan::kBricks)) return prepareBricks(context, frame, draw);
     const Result<const volume::ChannelGpu*> channel =
         draw.dataset->channel(*context.device, *draw.layer, context.frame);
     if (!channel) return channel.error();

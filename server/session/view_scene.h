@@ -39,7 +39,9 @@ public:
     /// A picture of the input `seq` was drawn: scene() may be gone back to.
     void drawn(std::uint64_t seq);
     /// After a failure of a scene that runs users' code: takes the last scene that was drawn, seen
-    /// by the newest camera. False where there is none, or it is this one.
+    /// by the newest camera. Where this one was, its code has failed later: the last scene that was
+    /// drawn with other code, or with none; and where there was none, this one without its layers
+    /// that run code. False where no code runs, or nothing was drawn yet.
     bool revert();
 
     [[nodiscard]] const std::optional<scene::Scene>& scene() const noexcept { return scene_; }
@@ -73,9 +75,10 @@ private:
     Catalogue& catalogue_;
     std::uint64_t maxPixels_;
     std::optional<scene::Scene> scene_;
-    std::optional<scene::Scene> good_;  ///< The last one that was drawn.
-    bool isGood_ = false;               ///< That is scene_, the camera aside.
-    std::uint64_t sceneSeq_ = 0;        ///< Input that brought scene_.
+    std::optional<scene::Scene> good_;   ///< The last one that was drawn.
+    std::optional<scene::Scene> other_;  ///< The last one with other code.
+    bool isGood_ = false;                ///< That is scene_, the camera aside.
+    std::uint64_t sceneSeq_ = 0;         ///< Input that brought scene_.
     std::optional<Waiting> waiting_;
     scene::PictureSize size_{512, 512};
     std::uint64_t inputSeq_ = 0;

@@ -142,17 +142,21 @@ float tricubic(ivec3 low, vec3 t) {
 
 // The value at grid coordinates `at` of the page's level, at most one grid interval outside of its
 // brick: a border of kBrickBorder points serves all that is read.
-float valueInPage(vec3 at) {
+float valueInPage(vec3 at, int sampling) {
     ivec3 last = ivec3(page.last);
-    if (kSampling == kNearest) {
+    if (sampling == kNearest) {
         return voxel(page.texels + clamp(ivec3(floor(at + 0.5)), ivec3(0), last));
     }
     // The same cell as if there was no page: on a face of a brick both give one value.
     ivec3 low = clamp(ivec3(floor(at)), ivec3(0), max(last - 1, ivec3(0)));
     low = clamp(low, page.first - 1, page.first + kPoolBrick);
     vec3 t = clamp(at - vec3(low), 0.0, 1.0);
-    return kSampling == kTricubic ? tricubic(page.texels + low, t)
+    return sampling == kTricubic ? tricubic(page.texels + low, t)
                                   : trilinear(page.texels + low, t);
+}
+
+float valueInPage(vec3 at) {
+    return valueInPage(at, kSampling);
 }
 
 // The value at grid coordinates `at`. Where a coarser brick stands in for one that was left out for

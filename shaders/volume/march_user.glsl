@@ -2,12 +2,12 @@
 // the exact length of the ray in the box; nothing is skipped, because nobody knows what the code
 // shows of a value; where the layer's own channel has no value it is not asked.
 // Constants: kEarlyStop, kMaxRaySamples; kInterval: only values in an interval count; those of
-// lib/window.glsl and volume/user_channels.glsl.
+// lib/window.glsl and volume/user_voxels.glsl.
 // Uses: model.
 #include "lib/box.glsl"
 #include "lib/window.glsl"
 #include "volume/missing.glsl"
-#include "volume/user_channels.glsl"
+#include "volume/user_voxels.glsl"
 
 layout(location = 0) out vec4 colour;
 
