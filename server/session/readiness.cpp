@@ -13,6 +13,7 @@ std::string readinessJson(const workers::RenderStatus& status) {
     fields["losses"].set_number_value(status.losses);
     fields["spare_ready"].set_bool_value(status.spareReady);
     fields["worker_pid"].set_number_value(status.workerPid);
+    fields["spare_pid"].set_number_value(status.sparePid);
     fields["gl_renderer"].set_string_value(status.glRenderer);
     fields["gl_version"].set_string_value(status.glVersion);
     fields["last_loss"].set_string_value(status.lastLoss);

@@ -91,6 +91,7 @@ struct RenderStatus {
     std::uint32_t losses = 0;  ///< Workers lost since start.
     bool spareReady = false;
     int workerPid = 0;  ///< Of the one that draws now; 0: none.
+    int sparePid = 0;   ///< Of the one that waits, ready or not; 0: none.
     std::string glRenderer, glVersion;
     std::string lastLoss;  ///< "killed by signal 9", "missed its deadline of 10000 ms".
 };

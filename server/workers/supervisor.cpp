@@ -383,6 +383,7 @@ RenderStatus Supervisor::status() const {
     status.losses = losses_;
     status.spareReady = spare_ && spare_->ready() && spare_->warm();
     status.workerPid = main_ ? main_->pid() : 0;
+    status.sparePid = spare_ ? spare_->pid() : 0;
     if (status.ready) {
         status.glRenderer = main_->about().gl_renderer();
         status.glVersion = main_->about().gl_version();
