@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "renderer/scene/default_scene.h"
-#include "renderer/scene/user_controls.h"
 #include "renderer/scene/validate.h"
 #include "renderer/worker/scene_message.h"
 
@@ -184,14 +183,13 @@ void ViewScene::drawn(std::uint64_t seq) {
     isGood_ = true;
 }
 
-bool ViewScene::revert() {
-    const bool runsCode = scene_ && std::ranges::any_of(scene_->layers, scene::runsUserCode);
-    if (!runsCode || isGood_ || !good_) return false;
+std::optional<std::uint64_t> ViewScene::revert() {
+    if (!scene_ || isGood_ || !good_) return std::nullopt;
     const scene::Camera camera = scene_->camera;
     scene_ = good_;
     scene_->camera = camera;
     isGood_ = true;
-    return true;
+    return sceneSeq_;
 }
 
 std::uint64_t ViewScene::dataVersion() const {

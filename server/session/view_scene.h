@@ -38,9 +38,9 @@ public:
 
     /// A picture of the input `seq` was drawn: scene() may be gone back to.
     void drawn(std::uint64_t seq);
-    /// After a failure of a scene that runs users' code: takes the last scene that was drawn, seen
-    /// by the newest camera. False where there is none, or it is this one.
-    bool revert();
+    /// After a failure that the scene is to blame for: takes the last scene that was drawn, seen by
+    /// the newest camera. The input that brought the failed one; nothing where there is no other.
+    std::optional<std::uint64_t> revert();
 
     [[nodiscard]] const std::optional<scene::Scene>& scene() const noexcept { return scene_; }
     [[nodiscard]] scene::PictureSize size() const noexcept { return size_; }
