@@ -18,6 +18,7 @@ struct ServeSettings {
     unsigned importsAtOnce = 1;
     unsigned encodeThreads = 2;
     session::SessionLimits limits;
+    bool allowFaults = false;  ///< Clients may let workers and imports fail.
     std::string logLevel = "info";
     std::string serverName;  ///< Told to clients, with the version.
     std::string sourceUrl;   ///< Told to clients: the AGPL asks for it.

@@ -12,6 +12,7 @@
 
 #include "server/commands/cache_folder.h"
 #include "server/settings.h"
+#include "server/workers/gpu_given_up.h"
 #include "server/workers/isolating_service.h"
 
 namespace volcast::commands {
@@ -42,6 +43,7 @@ int complain(const Error& error) {
 int serve(ServeSettings settings) {
     startLog(settings.logLevel);
     if (settings.render.cacheFolder.empty()) settings.render.cacheFolder = userCacheFolder();
+    workers::forgetGpuGivenUp(settings.render.cacheFolder);  // It gets another chance.
     if (settings.listen.clientFolder.empty()) settings.listen.clientFolder = defaultClientFolder();
     session::ViewRouter router;
     session::EncodePool encoders{settings.encodeThreads};
@@ -51,6 +53,13 @@ int serve(ServeSettings settings) {
     desc.folder = settings.dataFolder;
     desc.imports = settings.imports;
     desc.importsAtOnce = settings.importsAtOnce;
+    workers::FaultSwitch faults;
+    faults.connect(**render);
+    if (settings.allowFaults) {
+        spdlog::warn(
+            "event=faults_allowed message=\"any client may let workers and imports fail\"");
+        desc.imports.fault = [&faults] { return faults.takeForImport(); };
+    }
     auto catalogue = session::Catalogue::create(std::move(desc), **render);
     if (!catalogue) return complain(catalogue.error());
     session::Shared shared{.render = **render,
@@ -59,7 +68,8 @@ int serve(ServeSettings settings) {
                            .encoders = encoders,
                            .limits = settings.limits,
                            .server = settings.serverName,
-                           .sourceUrl = settings.sourceUrl};
+                           .sourceUrl = settings.sourceUrl,
+                           .faults = settings.allowFaults ? &faults : nullptr};
     auto server = net::Server::create(settings.listen, shared);
     if (!server) return complain(server.error());
     const workers::RenderStatus status = (*render)->status();
@@ -116,6 +126,22 @@ void addLimits(CLI::App& command, ServeSettings& settings) {
         ->check(CLI::Range(workers::kLeastVolumeBudgetMib, workers::kMostVolumeBudgetMib));
 }
 
+void addFaults(CLI::App& command, ServeSettings& settings) {
+    CLI::Option* allowed = command.add_flag(
+        "--allow-faults", settings.allowFaults,
+        "FOR TESTS ALONE: lets every client crash and hang workers and imports (InjectFault)");
+    command
+        .add_option_function<std::string>(
+            "--worker-fault",
+            [&settings](const std::string& text) {
+                const auto fault = worker::parseFault(text);
+                if (!fault) throw CLI::ValidationError{"--worker-fault", fault.error().message};
+                settings.render.fault = *fault;
+            },
+            "FOR TESTS ALONE: each worker gets this --fault; see volcast-worker --list-faults")
+        ->needs(allowed);
+}
+
 }  // namespace
 
 void addServeCommand(CLI::App& app, int& exitCode) {
@@ -149,6 +175,7 @@ void addServeCommand(CLI::App& app, int& exitCode) {
         ->check(CLI::IsMember({"debug", "info", "warning", "error", "off"}))
         ->capture_default_str();
     addLimits(command, *settings);
+    addFaults(command, *settings);
     command.callback([settings, &exitCode] { exitCode = serve(*settings); });
 }
 

@@ -71,6 +71,7 @@ void Session::receive(std::span<const std::byte> bytes, Form form, TimePoint now
             return measureAccuracy(message->measure_accuracy());
         case v1::ClientMessage::kPick: return pick(message->pick());
         case v1::ClientMessage::kDescribeShader: return describeShader(message->describe_shader());
+        case v1::ClientMessage::kInjectFault: return injectFault(message->inject_fault());
         case v1::ClientMessage::kPing: {
             v1::ServerMessage reply;
             reply.mutable_pong()->set_token(message->ping().token());

@@ -103,6 +103,7 @@ private:
     void measureAccuracy(const v1::MeasureAccuracy& message);
     void pick(const v1::Pick& message);
     void describeShader(const v1::DescribeShader& message);
+    void injectFault(const v1::InjectFault& message);
 
     void datasetChanged(const v1::DatasetInfo& info);
     // News come with the view's number in the whole server: its own may be in use again.

@@ -93,10 +93,15 @@ void Session::failed(std::uint64_t global, std::uint64_t tag, const Error& error
     if (view == nullptr || !view->frames.failed(tag)) return;
     Error told = error;
     if (told.field.starts_with("layers[")) told.field = "scene." + told.field;
-    if (!view->scene.revert()) {
+    // Not where the worker alone is to blame: the scene is drawn once there is one again.
+    const bool sceneIsToBlame = !error.field.empty() || error.code == ErrorCode::kOutOfGpuMemory;
+    const auto failedSeq = sceneIsToBlame ? view->scene.revert() : std::nullopt;
+    if (!failedSeq) {
         refuse(*view, told, wireCode(error.code));
         return advance(*view, Clock::now());
     }
+    told.message = "the scene of input " + std::to_string(*failedSeq) +
+                   " is refused, the last one that was drawn stays: " + told.message;
     send(errorMessage(told, {.view = view->number, .inputSeq = view->scene.shownSeq()}));
     setState(*view, v1::VIEW_STATE_ACTIVE, "");
     apply(*view, SceneChange::kDraw);

@@ -205,8 +205,8 @@ void ViewScene::drawn(std::uint64_t seq) {
     isGood_ = true;
 }
 
-bool ViewScene::revert() {
-    if (!scene_ || !good_ || codesOf(*scene_).empty()) return false;
+std::optional<std::uint64_t> ViewScene::revert() {
+    if (!scene_ || !good_ || (isGood_ && codesOf(*scene_).empty())) return std::nullopt;
     const scene::Camera camera = scene_->camera;
     if (isGood_) {
         good_ = other_ ? std::exchange(other_, std::nullopt) : withoutCode(*scene_);
@@ -214,7 +214,7 @@ bool ViewScene::revert() {
     scene_ = good_;
     scene_->camera = camera;
     isGood_ = true;
-    return true;
+    return sceneSeq_;
 }
 
 std::uint64_t ViewScene::dataVersion() const {

@@ -38,11 +38,11 @@ public:
 
     /// A picture of the input `seq` was drawn: scene() may be gone back to.
     void drawn(std::uint64_t seq);
-    /// After a failure of a scene that runs users' code: takes the last scene that was drawn, seen
-    /// by the newest camera. Where this one was, its code has failed later: the last scene that was
+    /// After a failure that the scene is to blame for: takes the last scene that was drawn, seen by
+    /// the newest camera. Where this one was, its code has failed later: the last scene that was
     /// drawn with other code, or with none; and where there was none, this one without its layers
-    /// that run code. False where no code runs, or nothing was drawn yet.
-    bool revert();
+    /// that run code. The input that brought the failed one; nothing where there is no other.
+    std::optional<std::uint64_t> revert();
 
     [[nodiscard]] const std::optional<scene::Scene>& scene() const noexcept { return scene_; }
     [[nodiscard]] scene::PictureSize size() const noexcept { return size_; }

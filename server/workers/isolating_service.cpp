@@ -106,6 +106,13 @@ public:
         end(view);
     }
 
+    void injectFault(std::uint64_t view, const worker::FaultSpec& fault) override {
+        const std::scoped_lock lock{mutex_};
+        const auto own = own_.find(view);
+        const bool isOwn = own != own_.end() && own->second->service;
+        (isOwn ? own->second->service : shared_)->injectFault(view, fault);
+    }
+
     /// Of the worker that most views share.
     [[nodiscard]] RenderStatus status() const override { return shared_->status(); }
 
@@ -120,9 +127,10 @@ private:
         std::shared_ptr<OwnService>& own = own_[view];
         if (own == nullptr && own_.size() > kMaxOwnWorkers) {
             own_.erase(view);
-            return fail(ErrorCode::kLimitExceeded, "shader code runs in " +
-                                                       std::to_string(kMaxOwnWorkers) +
-                                                       " views already, the most at a time");
+            return fail(ErrorCode::kLimitExceeded,
+                        "shader code runs in " + std::to_string(kMaxOwnWorkers) +
+                            " views already, the most at a time",
+                        "scene");
         }
         const bool fresh = own == nullptr;
         if (fresh) own = std::make_shared<OwnService>();

@@ -55,6 +55,7 @@ std::vector<std::pair<std::string, std::string>> clientMeanings() {
         {"close_view", R"({"closeView":{"view":7}})"},
         {"ack", R"({"ack":{"view":7,"sequence":41,"holdUs":16700,"decodeUs":4700,"queue":1}})"},
         {"pick", R"({"pick":{"view":7,"inputSeq":"9007199254740993","x":8191,"y":12}})"},
+        {"inject_fault", R"({"injectFault":{"view":7,"fault":"crash"}})"},
         {"ping", R"({"ping":{"token":"9007199254740993"}})"},
         {"no_body", "{}"},
     };
