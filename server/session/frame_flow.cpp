@@ -17,12 +17,13 @@ double seconds(Clock::duration duration) {
 
 void FrameFlow::sent(std::uint32_t sequence, std::size_t bytes, TimePoint now) {
     if (underWay_.empty()) heardAt_ = std::max(heardAt_, now);
-    underWay_.push_back({.sequence = sequence,
-                         .bytes = bytes,
-                         .at = now,
-                         .since = underWay_.empty() ? now : std::max(shownAt_, underWay_.front().at),
-                         .bytesBefore = bytesShown_,
-                         .framesBefore = framesShown_});
+    underWay_.push_back(
+        {.sequence = sequence,
+         .bytes = bytes,
+         .at = now,
+         .since = underWay_.empty() ? now : std::max(shownAt_, underWay_.front().at),
+         .bytesBefore = bytesShown_,
+         .framesBefore = framesShown_});
     bytesUnderWay_ += bytes;
     lastBytes_ = bytes;
     lastSequence_ = sequence;
@@ -98,7 +99,9 @@ void FrameFlow::forgiveSilence(TimePoint now) {
 std::size_t FrameFlow::window(TimePoint now) const {
     if (stopped()) return 0;
     if (silence_ == Silence::kProbing || now < slowUntil_) return 1;
-    const double pipe = std::ceil(framesPerS() * seconds(shortestRoundTrip())) + 1.0;
+    // One more than fits is what makes more fit be seen; where a queue is, no more fit.
+    const double more = queueDelay_ > kShortQueue ? 0.0 : 1.0;
+    const double pipe = std::ceil(framesPerS() * seconds(shortestRoundTrip())) + more;
     return static_cast<std::size_t>(std::clamp(pipe, 2.0, static_cast<double>(kMostFrames)));
 }
 
@@ -106,7 +109,7 @@ bool FrameFlow::credit(std::size_t committed, TimePoint now) const {
     const std::size_t ahead = underWay_.size() + committed;
     if (ahead >= window(now)) return false;
     const auto cap = byteCap();
-    return ahead == 0 || !cap || bytesUnderWay_ + (committed + 1) * lastBytes_ <= *cap;
+    return ahead == 0 || !cap || bytesUnderWay_ + committed * lastBytes_ < *cap;
 }
 
 }  // namespace volcast::session

@@ -22,15 +22,17 @@ struct FrameAck {
 
 /// What acks tell about the way to a client and back, and so how much may be under way.
 ///
-/// A window of ceil(frames/s * shortest round trip) + 1 frames in [2, 8], and of two
-/// bandwidth-delay products in bytes; one frame where the consumer is slow: by its own queue, by how
-/// long it holds frames, or by queueing delay (round trip over its windowed minimum, so that distance
-/// is no punishment). A client that is silent for 2 s, and the time that what is under way needs, gets
-/// one probe; 2 s later it gets nothing until it acks something.
+/// A window of ceil(frames/s * shortest round trip) + 1 frames in [2, 8] (without the 1 where
+/// queueing delay is over 15 ms), while less than two bandwidth-delay products are under way; one
+/// frame where the consumer is slow: by its own queue, by how long it holds frames, or by queueing
+/// delay (round trip over its windowed minimum, so that distance is no punishment). A client that
+/// is silent for 2 s, and the time that what is under way needs, gets one probe; 2 s later it gets
+/// nothing until it acks something.
 class FrameFlow {
 public:
     static constexpr std::chrono::milliseconds kProbeAfter{2000};
     static constexpr std::chrono::milliseconds kSlowDelay{50};
+    static constexpr std::chrono::milliseconds kShortQueue{15};
     static constexpr std::chrono::milliseconds kCalm{1000};  ///< Calm time before two again.
     static constexpr std::chrono::milliseconds kMinimumWindow{15'000};
     static constexpr std::chrono::milliseconds kRateWindow{3000};
@@ -46,7 +48,8 @@ public:
     void forgiveSilence(TimePoint now);
 
     [[nodiscard]] std::size_t window(TimePoint now) const;
-    /// With `committed` frames on their way to the socket besides those under way, one more may follow.
+    /// With `committed` frames on their way to the socket besides those under way, one more may
+    /// follow.
     [[nodiscard]] bool credit(std::size_t committed, TimePoint now) const;
     [[nodiscard]] std::size_t underWay() const noexcept { return underWay_.size(); }
     [[nodiscard]] std::size_t bytesUnderWay() const noexcept { return bytesUnderWay_; }

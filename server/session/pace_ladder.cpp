@@ -21,8 +21,9 @@ std::string rate(double framesPerS) {
 }  // namespace
 
 void PaceLadder::build() {
-    const std::optional<Step> last = taken_ > 0 ? std::optional{steps_[taken_ - 1]} : std::nullopt;
-    steps_.clear();
+    std::vector<Step> before;
+    before.swap(steps_);
+    before.resize(taken_);
     if (hasVideo_ && !pins_.video) steps_.push_back({Kind::kCodec, 1});
     if (!pins_.quality) {
         for (const double quality : {75.0, 60.0, 45.0}) steps_.push_back({Kind::kQuality, quality});
@@ -34,14 +35,12 @@ void PaceLadder::build() {
     for (const double framesPerS : {15.0, 8.0, 4.0, 2.0}) {
         if (!pins_.framesPerS) steps_.push_back({Kind::kRate, framesPerS});
     }
-    // Kinds are in order, and so are the values of one kind: what lies before the last stays taken.
-    taken_ = 0;
-    if (!last) return;
-    const auto isTaken = [&last](const Step& step) {
-        return step.kind < last->kind ||
-               (step.kind == last->kind && step.value >= last->value);
-    };
-    taken_ = static_cast<std::size_t>(std::ranges::count_if(steps_, isTaken));
+    // Kinds are in order, and so are the values of one kind: all up to the last one stays taken.
+    if (before.empty()) return;
+    const Step last = before.back();
+    taken_ = static_cast<std::size_t>(std::ranges::count_if(steps_, [&last](const Step& step) {
+        return step.kind < last.kind || (step.kind == last.kind && step.value >= last.value);
+    }));
 }
 
 void PaceLadder::setPins(const PacePins& pins) {
@@ -80,8 +79,10 @@ std::string PaceLadder::change(std::size_t from, std::size_t to) const {
         case Kind::kQuality:
             return "quality " + number(before.quality) + " to " + number(after.quality);
         case Kind::kScale: return "scale " + number(before.scale) + " to " + number(after.scale);
-        case Kind::kAccuracy: return after.fullAccuracy ? "fast to full accuracy" : "full accuracy to fast";
-        case Kind::kRate: return "rate " + rate(before.framesPerS) + " to " + rate(after.framesPerS);
+        case Kind::kAccuracy:
+            return after.fullAccuracy ? "fast to full accuracy" : "full accuracy to fast";
+        case Kind::kRate:
+            return "rate " + rate(before.framesPerS) + " to " + rate(after.framesPerS);
     }
     return {};
 }

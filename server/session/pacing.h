@@ -21,9 +21,9 @@ struct PaceReport {
 /// Decides how many frames of a view are under way to one client, and how they are made.
 ///
 /// Queueing delay over 50 ms, or more than two frames waiting in the client: one step down the
-/// PaceLadder. Under 15 ms for a second, or longer where the last steps up had to be taken back: one
-/// step up. At least a second lies between steps, and what was sent before a step does not count
-/// towards the next. Has no clock and no socket.
+/// PaceLadder. Under 15 ms for a second, or longer where the last steps up had to be taken back:
+/// one step up. At least a second lies between steps, and what was sent before a step does not
+/// count towards the next. Has no clock and no socket.
 class Pacing {
 public:
     static constexpr std::chrono::milliseconds kDownOver{50};
@@ -63,7 +63,7 @@ private:
     std::string reason_;
     std::optional<TimePoint> startedAt_, steppedAt_;
     std::optional<TimePoint> calmSince_;
-    std::optional<TimePoint> raisedAt_;  ///< Of the last step up, until it is proven.
+    std::optional<TimePoint> raisedAt_;              ///< Of the last step up, until it is proven.
     std::chrono::milliseconds calm_{kBetweenSteps};  ///< Before the next step up.
     std::uint32_t lastSent_ = 0;
     std::uint32_t sentBeforeStep_ = 0;  ///< The newest frame that was made before the last step.

@@ -175,7 +175,7 @@ std::optional<ReadyFrame> ViewFrames::takeFrame(TimePoint now) {
                      .payload = std::move(encoded_->bytes)};
     frame.header.mutable_timings()->set_queue_ms(msBetween(encoded_->at, now));
     encoded_.reset();
-    flow_.sent(frame.sequence, now);
+    flow_.sent(frame.sequence, frame.payload.size(), now);
     return frame;
 }
 

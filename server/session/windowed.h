@@ -5,8 +5,8 @@
 
 namespace volcast::session {
 
-/// The best of what was seen lately, by `Better` (std::less keeps the smallest): over the last whole
-/// window and the one that runs, so a value is remembered for one to two windows.
+/// The best of what was seen lately, by `Better` (std::less keeps the smallest): over the last
+/// whole window and the one that runs, so a value is remembered for one to two windows.
 template <class T, class Better>
 class Windowed {
 public:

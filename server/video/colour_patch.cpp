@@ -11,7 +11,7 @@ namespace {
 constexpr std::size_t kSquares = std::size_t{kPatchSquares.x} * kPatchSquares.y;
 using Rgb = std::array<int, 3>;
 constexpr std::array<Rgb, kSquares> kColours{
-    Rgb{0, 0, 0}, {255, 255, 255}, {255, 0, 0}, {0, 255, 0},  // And what real pictures have:
+    Rgb{0, 0, 0}, {255, 255, 255}, {255, 0, 0},   {0, 255, 0},  // And what real pictures have:
     {0, 0, 255},  {128, 128, 128}, {64, 160, 96}, {224, 128, 32}};
 
 std::vector<std::byte> drawn() {

@@ -83,9 +83,8 @@ Result<void> VideoStream::Encoder::fill(const EncoderRow& row, const ImageView& 
     if (const int writable = av_frame_make_writable(frame.get()); writable < 0) {
         return failAs(row, avError(writable));
     }
-    const YuvPlanes planes{
-        .rows = {frame->data[0], frame->data[1], frame->data[2]},
-        .strides = {frame->linesize[0], frame->linesize[1], frame->linesize[2]}};
+    const YuvPlanes planes{.rows = {frame->data[0], frame->data[1], frame->data[2]},
+                           .strides = {frame->linesize[0], frame->linesize[1], frame->linesize[2]}};
     if (isSubsampled(row)) {
         toYuv420(image, row.range, planes);
     } else {
@@ -157,7 +156,8 @@ std::vector<EncoderFinding> findVideoEncoders() {
         EncoderFinding finding{.codec = row.codec, .name = row.name, .detail = {}};
         const ImageView patch = colourPatch();
         auto opened = VideoStream::Encoder::open(row, patch.size, kQuality);
-        Result<void> ran = opened ? (*opened)->fill(row, patch, true) : Result<void>{opened.error()};
+        Result<void> ran =
+            opened ? (*opened)->fill(row, patch, true) : Result<void>{opened.error()};
         if (ran) {
             if (const auto picture = (*opened)->run(row); !picture) ran = picture.error();
         }

@@ -29,8 +29,8 @@ struct EncoderFinding {
 /// Pictures of one stream, each one right after it was given: nothing is held back, reordered or
 /// dropped. Every picture but a keyframe needs all before it since the last keyframe.
 ///
-/// The bitstream always says how its colours are meant. H.264 has even sides only: of an odd picture
-/// its last row or column is there twice. Not thread-safe, but of no thread in particular.
+/// The bitstream always says how its colours are meant. H.264 has even sides only: of an odd
+/// picture its last row or column is there twice. Not thread-safe, but of no thread in particular.
 class VideoStream {
 public:
     /// Errors: kUnsupported (no encoder of `codec` works here; names those that were tried).

@@ -24,10 +24,10 @@ struct WriterDeleter {
 Result<std::vector<std::byte>> encodeWebp(const ImageView& image) {
     if (Result<void> valid = check(image); !valid) return std::move(valid).error();
     if (image.size.x > WEBP_MAX_DIMENSION || image.size.y > WEBP_MAX_DIMENSION) {
-        return fail(ErrorCode::kInvalidArgument,
-                    "picture of " + std::to_string(image.size.x) + " x " +
-                        std::to_string(image.size.y) + " pixels: WebP allows sides of at most " +
-                        std::to_string(WEBP_MAX_DIMENSION));
+        return fail(ErrorCode::kInvalidArgument, "picture of " + std::to_string(image.size.x) +
+                                                     " x " + std::to_string(image.size.y) +
+                                                     " pixels: WebP allows sides of at most " +
+                                                     std::to_string(WEBP_MAX_DIMENSION));
     }
     WebPConfig config;
     WebPPicture picture;

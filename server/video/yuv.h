@@ -24,8 +24,8 @@ struct YuvPlanes {
 /// rounded to the nearest code. Alpha is ignored. The planes are as large as the picture.
 void toYuv444(const ImageView& image, YuvRange range, const YuvPlanes& planes);
 
-/// The same with Cb and Cr of the mean of each 2 x 2 pixels. Planes: the picture's size rounded up to
-/// even numbers (Y') and half of that (Cb, Cr); what is outside repeats the last row and column.
+/// The same with Cb and Cr of the mean of each 2 x 2 pixels. Planes: the picture's size rounded up
+/// to even numbers (Y') and half of that (Cb, Cr); what is outside repeats the last row and column.
 void toYuv420(const ImageView& image, YuvRange range, const YuvPlanes& planes);
 
 }  // namespace volcast::video

@@ -63,10 +63,8 @@ private:
                           .range = frame.color_range,
                           .primaries = frame.color_primaries,
                           .transfer = frame.color_trc};
-        picture.chromaShift = frame.format == AV_PIX_FMT_YUV444P ||
-                                      frame.format == AV_PIX_FMT_YUVJ444P
-                                  ? 0
-                                  : 1;
+        picture.chromaShift =
+            frame.format == AV_PIX_FMT_YUV444P || frame.format == AV_PIX_FMT_YUVJ444P ? 0 : 1;
         const bool full = frame.color_range == AVCOL_RANGE_JPEG;
         const double lumaGain = full ? 1.0 : 255.0 / 219.0, chromaGain = full ? 1.0 : 255.0 / 224.0;
         for (int y = 0; y < frame.height; ++y) {

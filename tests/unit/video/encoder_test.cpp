@@ -144,10 +144,10 @@ Picture decodeWebp(std::span<const std::byte> bytes) {
     Picture picture;
     EXPECT_NE(WebPGetInfo(data, bytes.size(), &picture.size.x, &picture.size.y), 0);
     picture = blank(picture.size);
-    EXPECT_NE(WebPDecodeRGBAInto(data, bytes.size(),
-                                 reinterpret_cast<std::uint8_t*>(picture.rgba.data()),
-                                 picture.rgba.size(), picture.size.x * 4),
-              nullptr);
+    EXPECT_NE(
+        WebPDecodeRGBAInto(data, bytes.size(), reinterpret_cast<std::uint8_t*>(picture.rgba.data()),
+                           picture.rgba.size(), picture.size.x * 4),
+        nullptr);
     return picture;
 }
 

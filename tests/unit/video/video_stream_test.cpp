@@ -52,7 +52,8 @@ TEST_P(VideoStreamTest, EachPictureIsDecodedAtOnceAndIsClose) {
         EXPECT_EQ(decoded->chromaShift, isVp9() ? 0 : 1);
         EXPECT_GT(psnr(picture, decoded->rgb), isVp9() ? 38.0 : 26.0) << step;
         RecordProperty("psnr", std::to_string(psnr(picture, decoded->rgb)));
-        std::printf("step %d %.2f dB %zu bytes\n", step, psnr(picture, decoded->rgb), encoded.bytes.size());
+        std::printf("step %d %.2f dB %zu bytes\n", step, psnr(picture, decoded->rgb),
+                    encoded.bytes.size());
     }
 }
 
@@ -83,7 +84,8 @@ TEST_P(VideoStreamTest, KeepsTheColoursOfThePatch) {
         for (std::size_t i = 0; i < 3; ++i) {
             const int code = decoded->rgb[3 * pixel + i];
             middles.push_back(static_cast<std::byte>(code));
-            worst = std::max(worst, std::abs(code - std::to_integer<int>(patch.rgba[4 * pixel + i])));
+            worst =
+                std::max(worst, std::abs(code - std::to_integer<int>(patch.rgba[4 * pixel + i])));
         }
     }
     EXPECT_LE(worst, 4);
@@ -180,7 +182,8 @@ TEST(ColourPatch, PassesAsItIsAndFailsWithAnotherRangeOrMatrix) {
     const ImageView patch = colourPatch();
     std::vector<std::byte> right, limited, bt601;
     for (int square = 0; square < kPatchSquares.x * kPatchSquares.y; ++square) {
-        const int x = square % kPatchSquares.x * kPatchSide, y = square / kPatchSquares.x * kPatchSide;
+        const int x = square % kPatchSquares.x * kPatchSide,
+                  y = square / kPatchSquares.x * kPatchSide;
         const auto at = static_cast<std::size_t>(4 * (y * patch.size.x + x));
         const double r = std::to_integer<int>(patch.rgba[at]);
         const double g = std::to_integer<int>(patch.rgba[at + 1]);
