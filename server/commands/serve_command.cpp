@@ -11,6 +11,7 @@
 #include <spdlog/spdlog.h>
 
 #include "server/commands/cache_folder.h"
+#include "server/session/views.h"
 #include "server/settings.h"
 #include "server/workers/isolating_service.h"
 
@@ -44,7 +45,6 @@ int serve(ServeSettings settings) {
     if (settings.render.cacheFolder.empty()) settings.render.cacheFolder = userCacheFolder();
     if (settings.listen.clientFolder.empty()) settings.listen.clientFolder = defaultClientFolder();
     session::ViewRouter router;
-    session::EncodePool encoders{settings.encodeThreads};
     auto render = workers::createIsolatingService(settings.render, router.events());
     if (!render) return complain(render.error());
     session::CatalogueDesc desc;
@@ -53,10 +53,15 @@ int serve(ServeSettings settings) {
     desc.importsAtOnce = settings.importsAtOnce;
     auto catalogue = session::Catalogue::create(std::move(desc), **render);
     if (!catalogue) return complain(catalogue.error());
+    auto encoders = std::make_unique<session::EncodePool>(settings.encodeThreads);
+    session::Views views{{.render = **render,
+                          .catalogue = **catalogue,
+                          .router = router,
+                          .encoders = *encoders,
+                          .maxPixels = settings.limits.maxViewPixels}};
     session::Shared shared{.render = **render,
                            .catalogue = **catalogue,
-                           .router = router,
-                           .encoders = encoders,
+                           .views = views,
                            .limits = settings.limits,
                            .server = settings.serverName,
                            .sourceUrl = settings.sourceUrl};
@@ -72,6 +77,8 @@ int serve(ServeSettings settings) {
     // An import that runs can take minutes; its process ends with this one.
     if ((*catalogue)->importing()) std::_Exit(0);
     // News of other threads end before the sockets' context does.
+    views.clear();
+    encoders.reset();
     catalogue->reset();
     render->reset();
     return 0;

@@ -1,0 +1,114 @@
+#include "server/session/rendition.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "server/video/encoder.h"
+
+namespace volcast::session {
+
+namespace {
+
+double msBetween(TimePoint from, TimePoint to) {
+    return std::chrono::duration<double, std::milli>(to - from).count();
+}
+
+}  // namespace
+
+void Rendition::change(RenditionKey key) {
+    if (key == key_) return;
+    key_ = key;
+    want();
+}
+
+void Rendition::want() {
+    wanted_ = true;
+    refines_ = false;
+}
+
+void Rendition::asked(std::uint64_t tag, const DrawState& state, TimePoint now) {
+    Asked& asked = asked_.emplace_back(Asked{.tag = tag, .state = state, .at = now});
+    if (refines_) asked.state.inputAt = now;
+    wanted_ = refines_ = false;
+    drawing_ = true;
+}
+
+bool Rendition::rendered(const workers::RenderedFrame& frame, std::uint64_t number) {
+    const auto asked = std::ranges::find(asked_, frame.tag, &Asked::tag);
+    if (asked == asked_.end() || !frame.picture) return false;
+    if (frame.tag == asked_.back().tag) {
+        drawing_ = false;
+        if (!frame.ready && !wanted_) wanted_ = refines_ = true;
+    }
+    picture_ = std::make_shared<const ViewPicture>(ViewPicture{.number = number,
+                                                               .pixels = frame.picture,
+                                                               .scene = asked->state.scene,
+                                                               .header = headerOf(frame, *asked)});
+    encodings_.clear();
+    // Older requests cannot come back any more, but this one may: drawn again after a loss.
+    asked_.erase(asked_.begin(), asked);
+    return true;
+}
+
+v1::FrameHeader Rendition::headerOf(const workers::RenderedFrame& frame, const Asked& asked) {
+    v1::FrameHeader header;
+    header.set_input_seq(asked.state.inputSeq);
+    header.set_width(static_cast<std::uint32_t>(frame.picture->size.x));
+    header.set_height(static_cast<std::uint32_t>(frame.picture->size.y));
+    header.set_ready(frame.ready);
+    header.set_plan_id(frame.plan.id);
+    for (const plan::LayerPlan& layer : frame.plan.layers) {
+        if (layer.drawn) header.add_integrators(layer.integrator);
+    }
+    // The worst of the errors that were measured.
+    for (const plan::LayerPlan& layer : frame.plan.layers) {
+        if (!layer.errorBound) continue;
+        header.set_estimated_error(std::max(header.estimated_error(), *layer.errorBound));
+    }
+    v1::Timings& timings = *header.mutable_timings();
+    timings.set_wait_ms(msBetween(asked.state.inputAt, asked.at) + frame.waitMs);
+    timings.set_upload_ms(frame.uploadMs);
+    timings.set_draw_ms(frame.drawMs);
+    timings.set_readback_ms(frame.readbackMs + frame.copyMs);
+    header.set_data_version(asked.state.dataVersion);
+    header.set_worker_generation(frame.generation);
+    header.set_redrawn(frame.drawn);
+    return header;
+}
+
+bool Rendition::failed(std::uint64_t tag, bool& newest) {
+    if (std::ranges::find(asked_, tag, &Asked::tag) == asked_.end()) return false;
+    newest = tag == asked_.back().tag;
+    std::erase_if(asked_, [tag](const Asked& asked) { return asked.tag <= tag; });
+    if (newest) drawing_ = false;
+    return true;
+}
+
+std::shared_ptr<Encoding> Rendition::encoding(const Format& format) {
+    const auto found =
+        std::ranges::find(encodings_, format, [](const auto& one) { return one->format; });
+    if (found != encodings_.end()) return *found;
+    return encodings_.emplace_back(
+        std::make_shared<Encoding>(Encoding{.picture = picture_, .format = format}));
+}
+
+Encoding encode(const Encoding& encoding) {
+    Encoding done{
+        .picture = encoding.picture, .format = encoding.format, .begun = true, .done = true};
+    const auto start = Clock::now();
+    const workers::Picture& pixels = *encoding.picture->pixels;
+    const video::ImageView image{.size = pixels.size, .rgba = pixels.rgba8};
+    auto bytes = encoding.format.codec == v1::CODEC_PNG
+                     ? video::encodePng(image)
+                     : video::encodeJpeg(image, encoding.format.quality);
+    done.at = Clock::now();
+    done.encodeMs = msBetween(start, done.at);
+    if (bytes) {
+        done.bytes = std::make_shared<const std::vector<std::byte>>(std::move(*bytes));
+    } else {
+        done.error = bytes.error();
+    }
+    return done;
+}
+
+}  // namespace volcast::session

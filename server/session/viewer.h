@@ -1,0 +1,108 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "server/session/mail.h"
+#include "server/session/rendition.h"
+#include "volcast/v1/session.pb.h"
+
+namespace volcast::session {
+
+/// A frame on its way to the socket; the bytes are shared with other viewers.
+struct ReadyFrame {
+    std::uint32_t sequence = 0;
+    v1::FrameHeader header;
+    std::shared_ptr<const std::vector<std::byte>> payload;
+};
+
+/// One client's window on a view: what it wants to see, what it has been sent, and how much it may
+/// be sent. It takes pictures from its rendition, the newest when it has a credit (FrameFlow), so
+/// that a slow one skips pictures and holds up nobody.
+///
+/// While inputs come, frames are JPEG; a view left alone for max(150 ms, 1.5 round trips) is sent
+/// once more, losslessly. Nothing is dropped once it is encoded, but a lossless frame that a newer
+/// input overtook.
+class Viewer {
+public:
+    static constexpr std::chrono::milliseconds kIdle{150};
+
+    struct Codecs {
+        bool jpeg = true;
+        bool png = true;
+    };
+    struct Desc {
+        std::uint32_t number = 0;  ///< The client's own for the view.
+        Codecs codecs;
+        scene::PictureSize size{512, 512};
+        /// There is a frame or mail to take, or another deadline; called on any thread.
+        std::function<void()> wake = {};
+    };
+    explicit Viewer(Desc desc) : desc_{std::move(desc)} {}
+
+    [[nodiscard]] std::uint32_t number() const noexcept { return desc_.number; }
+    [[nodiscard]] const std::function<void()>& wake() const noexcept { return desc_.wake; }
+
+    // What it wants.
+    [[nodiscard]] RenditionKey wanted() const { return {.size = desc_.size}; }
+    void resize(scene::PictureSize size) { desc_.size = size; }
+    [[nodiscard]] scene::PictureSize size() const noexcept { return desc_.size; }
+
+    /// Somebody did something: a lossless frame waits for calm from now on.
+    void input(TimePoint now);
+    /// A picture drawn now would soon be sent.
+    [[nodiscard]] bool mayDraw(TimePoint now) const;
+    /// What is to be compressed for it now, if anything; it waits for that until encoded().
+    std::shared_ptr<Encoding> takeEncode(TimePoint now);
+    [[nodiscard]] bool waitsFor(const Encoding& encoding) const {
+        return encoding_.get() == &encoding;
+    }
+    /// What it waits for is done; false where that failed.
+    bool encoded();
+    /// The frame to send now, if any; it counts as under way from then on.
+    std::optional<ReadyFrame> takeFrame(TimePoint now);
+    void acked(const FrameAck& ack, TimePoint now) { flow_.acked(ack, now); }
+    void tick(TimePoint now);
+    /// When tick() and takeEncode() should be called again though nothing happened.
+    [[nodiscard]] std::optional<TimePoint> deadline(TimePoint now) const;
+
+    /// What a frame was of; `inputSeq` as its header said.
+    struct Sent {
+        std::uint64_t inputSeq = 0;
+        scene::PictureSize size{0};
+        std::shared_ptr<const scene::Scene> scene;
+    };
+    static constexpr std::size_t kSentKept = 8;
+    /// The newest last.
+    [[nodiscard]] const std::deque<Sent>& sent() const noexcept { return sent_; }
+    [[nodiscard]] std::uint32_t framesSent() const noexcept { return sequence_; }
+
+    std::shared_ptr<Rendition> rendition;         ///< Set by the view: of wanted().
+    Mail mail;                                    ///< What it is to be told.
+    v1::ViewState state = v1::VIEW_STATE_ACTIVE;  ///< As it was told.
+    bool opened = false;                          ///< It was told the scene.
+
+private:
+    [[nodiscard]] std::size_t committed() const { return flow_.underWay() + (encoding_ ? 1 : 0); }
+    [[nodiscard]] bool credit(TimePoint now) const { return committed() < flow_.window(now); }
+    [[nodiscard]] bool hasNewPicture() const;
+    /// What it shows is the newest state, but not yet exact.
+    [[nodiscard]] bool owesLossless() const;
+    [[nodiscard]] TimePoint calmAt() const;
+    [[nodiscard]] v1::FrameHeader headerOf(const Encoding& encoding, TimePoint now) const;
+
+    Desc desc_;
+    FrameFlow flow_;
+    TimePoint lastInput_{};
+    std::uint64_t taken_ = 0;             ///< Number of the picture it took last.
+    bool exact_ = false;                  ///< And took losslessly.
+    bool again_ = false;                  ///< encoding_ is of a picture that it has already.
+    std::shared_ptr<Encoding> encoding_;  ///< Being compressed for it, or waiting to be sent.
+    std::uint32_t sequence_ = 0;
+    std::deque<Sent> sent_;
+};
+
+}  // namespace volcast::session
