@@ -18,6 +18,7 @@ struct FrameAck {
     std::uint32_t sequence = 0;
     std::chrono::microseconds hold{0};  ///< Received -> shown.
     std::uint32_t queued = 0;           ///< Frames waiting in the client.
+    bool keyframe = false;              ///< It could not decode its video: a keyframe is needed.
 };
 
 /// What acks tell about the way to a client and back, and so how much may be under way.

@@ -41,6 +41,7 @@ public:
     std::string up();
 
     [[nodiscard]] PaceLevel level() const { return levelAt(taken_); }
+    [[nodiscard]] PaceLevel best() const { return levelAt(0); }
     [[nodiscard]] std::size_t taken() const noexcept { return taken_; }
     [[nodiscard]] std::size_t steps() const noexcept { return steps_.size(); }
 

@@ -50,6 +50,8 @@ public:
     /// When the rate allows the next picture to begin.
     [[nodiscard]] TimePoint nextStart() const;
     [[nodiscard]] PaceLevel level() const { return ladder_.level(); }
+    /// The level with no step taken.
+    [[nodiscard]] PaceLevel best() const { return ladder_.best(); }
     [[nodiscard]] const FrameFlow& flow() const noexcept { return flow_; }
     [[nodiscard]] PaceReport report(TimePoint now) const;
 

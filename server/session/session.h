@@ -82,6 +82,14 @@ private:
     void closeView(std::uint32_t number);
     void ack(const v1::Ack& message, TimePoint now);
 
+    // session_pacing.cpp
+    static std::vector<v1::Codec> codecsHere();
+    /// Errors: kUnsupported where nothing that every server sends is among them.
+    Result<void> takeCodecs(const v1::Hello& message);
+    std::optional<Outgoing> nextPatch();
+    void patchDecoded(const v1::PatchDecoded& message);
+    void setPins(const v1::SetPins& message, TimePoint now);
+
     void explain(const v1::Explain& message);
     void measureAccuracy(const v1::MeasureAccuracy& message);
     void pick(const v1::Pick& message);
@@ -102,7 +110,9 @@ private:
     std::uint64_t subscription_ = 0;
     bool greeted_ = false;
     Form form_ = Form::kBinary;
-    Viewer::Codecs codecs_;
+    ClientCodecs codecs_;
+    std::vector<v1::Codec> untried_;       ///< The client has not answered their colour patches.
+    std::deque<v1::Codec> patches_;        ///< Not sent yet.
     std::map<std::uint32_t, Seat> seats_;  ///< By the client's numbers.
     std::uint32_t lastServed_ = 0;         ///< View whose frame was sent last; views take turns.
     std::deque<v1::ServerMessage> waiting_;

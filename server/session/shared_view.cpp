@@ -132,6 +132,17 @@ void SharedView::acked(ViewerId viewer, const FrameAck& ack, TimePoint now) {
     advance(at(viewer), now);
 }
 
+void SharedView::setPins(ViewerId viewer, const PacePins& pins, v1::Codec codec, TimePoint now) {
+    const Turn turn{*this};
+    at(viewer).setPins(pins, codec);
+    advance(at(viewer), now);
+}
+
+void SharedView::setCodecs(ViewerId viewer, const ClientCodecs& codecs) {
+    const Turn turn{*this};
+    at(viewer).setCodecs(codecs);
+}
+
 std::optional<v1::ServerMessage> SharedView::takeMail(ViewerId viewer) {
     const Lock lock{mutex_};
     return at(viewer).mail.take();
@@ -154,6 +165,7 @@ void SharedView::apply(SceneChange change, TimePoint now) {
         if (!viewer->opened) tellOpened(*viewer);
         wake(*viewer);
     }
+    for (const auto& [id, viewer] : viewers_) place(*viewer);
     for (const auto& rendition : renditions_) rendition->want();
     advance(now);
 }

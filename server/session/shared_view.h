@@ -49,6 +49,10 @@ public:
     /// Errors: as sizeFrom() and ViewScene::update.
     Result<void> update(ViewerId viewer, const v1::Update& message, TimePoint now);
     void acked(ViewerId viewer, const FrameAck& ack, TimePoint now);
+    /// What pacing must not change of this viewer's frames; `codec` of interactive pictures.
+    void setPins(ViewerId viewer, const PacePins& pins, v1::Codec codec, TimePoint now);
+    /// More, or less, is known of what its client can show.
+    void setCodecs(ViewerId viewer, const ClientCodecs& codecs);
     std::optional<v1::ServerMessage> takeMail(ViewerId viewer);
     std::optional<ReadyFrame> takeFrame(ViewerId viewer, TimePoint now);
     void tick(ViewerId viewer, TimePoint now);

@@ -16,11 +16,11 @@ void SharedView::place(Viewer& viewer) {
     const auto others = std::ranges::count_if(
         viewers_, [&viewer](const auto& one) { return one.second->rendition == viewer.rendition; });
     if (found != renditions_.end()) {
-        viewer.rendition = *found;
+        viewer.moveTo(*found);
     } else if (viewer.rendition && others == 1) {
         viewer.rendition->change(key);  // Alone: what is being drawn for it is shown meanwhile.
     } else {
-        viewer.rendition = renditions_.emplace_back(std::make_shared<Rendition>(key));
+        viewer.moveTo(renditions_.emplace_back(std::make_shared<Rendition>(key)));
     }
     dropUnused();
 }
@@ -48,6 +48,8 @@ void SharedView::advance(TimePoint now) {
 }
 
 void SharedView::advance(Viewer& viewer, TimePoint now) {
+    viewer.rest(now);
+    place(viewer);
     encodeFor(viewer, now);
     if (mayDraw(viewer.rendition) && viewer.mayDraw(now)) draw(viewer.rendition, now);
 }
