@@ -13,6 +13,7 @@
 #include "server/commands/cache_folder.h"
 #include "server/session/views.h"
 #include "server/settings.h"
+#include "server/video/video_patches.h"
 #include "server/workers/isolating_service.h"
 
 namespace volcast::commands {
@@ -53,6 +54,7 @@ int serve(ServeSettings settings) {
     desc.importsAtOnce = settings.importsAtOnce;
     auto catalogue = session::Catalogue::create(std::move(desc), **render);
     if (!catalogue) return complain(catalogue.error());
+    (void)video::videoPatches();  // Encoders are tried now, not when the first client waits.
     auto encoders = std::make_unique<session::EncodePool>(settings.encodeThreads);
     session::Views views{{.render = **render,
                           .catalogue = **catalogue,

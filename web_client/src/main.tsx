@@ -33,11 +33,13 @@ import { followSize, limited } from "./view/viewport";
 
 declare global {
   interface Window {
-    /** Measurements for benchmarks in ms, oldest first: input to drawn, and stages of pictures. */
+    /** For benchmarks: measurements in ms, oldest first, of input to drawn and of stages of pictures. */
     volcast: {
       latencies(): readonly number[];
       stages(): readonly Stages[];
       clearLatencies(): void;
+      /** What pacing must not change, until the view is opened anew. */
+      setPins(pins: Parameters<Session["setPins"]>[0]): void;
     };
   }
 }
@@ -255,6 +257,7 @@ window.volcast = {
   latencies: () => recorder.latencies(),
   stages: () => recorder.stages(),
   clearLatencies: () => recorder.clear(),
+  setPins: (pins) => session.setPins(pins),
 };
 
 const app = document.getElementById("app");

@@ -13,6 +13,7 @@ import {
   ClientMessageSchema,
   DatasetState,
   type Picked,
+  type PinsSchema,
   type ServerMessage,
   ServerMessageSchema,
   ViewState,
@@ -165,6 +166,12 @@ export class Session {
     const holdUs = Math.round(holdMs * 1000);
     const decodeUs = Math.round(decodeMs * 1000);
     this.#send({ case: "ack", value: { view, sequence, holdUs, decodeUs, queue, keyframe } });
+  }
+
+  /** Replaces what pacing must not change; undefined members are left to it. */
+  setPins(pins: MessageInitShape<typeof PinsSchema>): void {
+    if (this.#view === undefined) return;
+    this.#send({ case: "setPins", value: { view: this.#view, pins } });
   }
 
   /** What the decoder made of a colour patch; `error` says why it made nothing. */
