@@ -91,7 +91,9 @@ std::vector<Finding> findCodecs() {
                             .ok = encoder.works,
                             .required = false,
                             .detail = encoder.detail,
-                            .cost = "slow connections get what the other codecs make"});
+                            .cost = encoder.hardware ? "H.264 is encoded on the CPU"
+                                    : vp9            ? "slow connections get H.264 or JPEG"
+                                                     : "slow connections get VP9 or JPEG"});
     }
     return findings;
 }

@@ -67,6 +67,14 @@ bool Viewer::hasNewPicture() const {
     return rendition->picture() && rendition->picture()->number > taken_;
 }
 
+bool Viewer::waits() const {
+    return rendition->wants() || hasNewPicture();
+}
+
+bool Viewer::owes() const {
+    return owesLossless() || (owesFull() && rendition->picture());
+}
+
 bool Viewer::mayDraw(TimePoint now) const {
     const std::size_t ahead = (hasNewPicture() ? 1U : 0U) + (rendition->drawing() ? 1U : 0U);
     return pacing_.credit(ahead + (encoding_ ? 1 : 0), now) && now >= pacing_.nextStart();
@@ -192,17 +200,14 @@ void Viewer::acked(const FrameAck& ack, TimePoint now) {
 }
 
 void Viewer::tick(TimePoint now) {
-    const bool blocked = !credit(now) && (rendition->wants() || hasNewPicture() || owesLossless());
-    if (blocked) pacing_.forgiveSilence(now);
+    if (!credit(now) && (waits() || owes())) pacing_.forgiveSilence(now);
 }
 
 std::optional<TimePoint> Viewer::deadline(TimePoint now) const {
-    const bool waits = rendition->wants() || hasNewPicture();
-    const bool owes = owesLossless() || (owesFull() && rendition->picture());
-    if (!waits && !owes) return std::nullopt;
+    if (!waits() && !owes()) return std::nullopt;
     if (!credit(now) && !encoding_) return pacing_.flow().probeAt();
-    if (waits && now < pacing_.nextStart()) return pacing_.nextStart();
-    if (owes) return calmAt();
+    if (waits() && now < pacing_.nextStart()) return pacing_.nextStart();
+    if (owes()) return calmAt();
     return std::nullopt;
 }
 

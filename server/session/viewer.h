@@ -98,7 +98,11 @@ private:
         return pacing_.credit(encoding_ ? 1 : 0, now);
     }
     [[nodiscard]] RenditionKey full() const { return {.size = desc_.size}; }
-    /// It has been left alone and still shows less than all.
+    /// A picture is to be drawn or sent for an input.
+    [[nodiscard]] bool waits() const;
+    /// And what is to come when it is left alone.
+    [[nodiscard]] bool owes() const;
+    /// It shows less than all.
     [[nodiscard]] bool owesFull() const { return !resting_ && wanted() != full(); }
     [[nodiscard]] bool slowWay() const;
     [[nodiscard]] Format interactive() const;

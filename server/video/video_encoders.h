@@ -25,6 +25,7 @@ struct EncoderRow {
     };
     VideoCodec codec;
     const char* name;
+    bool hardware;
     AVPixelFormat format;
     YuvRange range;
     const char* quantiser;  ///< The option that takes a constant quality.
@@ -36,6 +37,7 @@ struct EncoderRow {
 inline constexpr std::array<EncoderRow, 3> kEncoderRows{
     EncoderRow{VideoCodec::kVp9,
                "libvpx-vp9",
+               false,
                AV_PIX_FMT_YUV444P,
                YuvRange::kFull,
                "crf",
@@ -47,6 +49,7 @@ inline constexpr std::array<EncoderRow, 3> kEncoderRows{
                  {"auto-alt-ref", "0"}}}},
     EncoderRow{VideoCodec::kH264,
                "h264_nvenc",
+               true,
                AV_PIX_FMT_YUV420P,
                YuvRange::kLimited,
                "cq",
@@ -60,6 +63,7 @@ inline constexpr std::array<EncoderRow, 3> kEncoderRows{
                  {"profile", "baseline"}}}},
     EncoderRow{VideoCodec::kH264,
                "libx264",
+               false,
                AV_PIX_FMT_YUV420P,
                YuvRange::kLimited,
                "crf",

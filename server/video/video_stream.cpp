@@ -153,7 +153,8 @@ std::vector<EncoderFinding> findVideoEncoders() {
     constexpr int kQuality = 90;
     std::vector<EncoderFinding> findings;
     for (const EncoderRow& row : kEncoderRows) {
-        EncoderFinding finding{.codec = row.codec, .name = row.name, .detail = {}};
+        EncoderFinding finding{
+            .codec = row.codec, .name = row.name, .hardware = row.hardware, .detail = {}};
         const ImageView patch = colourPatch();
         auto opened = VideoStream::Encoder::open(row, patch.size, kQuality);
         Result<void> ran =

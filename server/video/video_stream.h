@@ -22,6 +22,7 @@ struct VideoPicture {
 struct EncoderFinding {
     VideoCodec codec{};
     std::string name;
+    bool hardware = false;
     bool works = false;
     std::string detail;  ///< Why it does not.
 };
