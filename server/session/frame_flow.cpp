@@ -85,7 +85,7 @@ std::optional<TimePoint> FrameFlow::probeAt() const {
         rate > 0.0 ? static_cast<double>(bytesUnderWay_) / rate : 0.0};
     const auto bounded = std::chrono::duration_cast<Clock::duration>(
         std::min<std::chrono::duration<double>>(transfer, std::chrono::minutes{1}));
-    return std::max(heardAt_, underWay_.front().at) + kProbeAfter + bounded;
+    return std::max(heardAt_, underWay_.back().at) + kProbeAfter + bounded;
 }
 
 void FrameFlow::forgiveSilence(TimePoint now) {
