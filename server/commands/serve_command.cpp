@@ -11,7 +11,9 @@
 #include <spdlog/spdlog.h>
 
 #include "server/commands/cache_folder.h"
+#include "server/session/views.h"
 #include "server/settings.h"
+#include "server/video/video_patches.h"
 #include "server/workers/gpu_given_up.h"
 #include "server/workers/isolating_service.h"
 
@@ -46,7 +48,6 @@ int serve(ServeSettings settings) {
     workers::forgetGpuGivenUp(settings.render.cacheFolder);  // It gets another chance.
     if (settings.listen.clientFolder.empty()) settings.listen.clientFolder = defaultClientFolder();
     session::ViewRouter router;
-    session::EncodePool encoders{settings.encodeThreads};
     auto render = workers::createIsolatingService(settings.render, router.events());
     if (!render) return complain(render.error());
     session::CatalogueDesc desc;
@@ -62,10 +63,16 @@ int serve(ServeSettings settings) {
     }
     auto catalogue = session::Catalogue::create(std::move(desc), **render);
     if (!catalogue) return complain(catalogue.error());
+    (void)video::videoPatches();  // Encoders are tried now, not when the first client waits.
+    auto encoders = std::make_unique<session::EncodePool>(settings.encodeThreads);
+    session::Views views{{.render = **render,
+                          .catalogue = **catalogue,
+                          .router = router,
+                          .encoders = *encoders,
+                          .maxPixels = settings.limits.maxViewPixels}};
     session::Shared shared{.render = **render,
                            .catalogue = **catalogue,
-                           .router = router,
-                           .encoders = encoders,
+                           .views = views,
                            .limits = settings.limits,
                            .server = settings.serverName,
                            .sourceUrl = settings.sourceUrl,
@@ -82,6 +89,8 @@ int serve(ServeSettings settings) {
     // An import that runs can take minutes; its process ends with this one.
     if ((*catalogue)->importing()) std::_Exit(0);
     // News of other threads end before the sockets' context does.
+    views.clear();
+    encoders.reset();
     catalogue->reset();
     render->reset();
     return 0;

@@ -55,7 +55,7 @@ std::vector<std::string> ViewScene::Waiting::datasets() const {
     return scene ? datasetsOf(*scene) : std::vector{defaultOf};
 }
 
-Result<scene::PictureSize> ViewScene::sizeFrom(const v1::Viewport& message) const {
+Result<scene::PictureSize> sizeFrom(const v1::Viewport& message, std::uint64_t maxPixels) {
     // Beyond int the side is too long anyway, and says so as the largest int.
     const auto side = [](std::uint32_t pixels) {
         return static_cast<int>(std::min(pixels, std::uint32_t{0x7fffffff}));
@@ -63,10 +63,10 @@ Result<scene::PictureSize> ViewScene::sizeFrom(const v1::Viewport& message) cons
     const scene::PictureSize size{side(message.width()), side(message.height())};
     if (const auto valid = scene::validate(size); !valid) return within("viewport", valid.error());
     const std::uint64_t pixels = std::uint64_t{message.width()} * message.height();
-    if (pixels > maxPixels_) {
+    if (pixels > maxPixels) {
         return fail(ErrorCode::kLimitExceeded,
                     "a view of " + std::to_string(pixels) + " pixels; the limit is " +
-                        std::to_string(maxPixels_),
+                        std::to_string(maxPixels),
                     "viewport");
     }
     return size;
@@ -115,8 +115,6 @@ Result<SceneChange> ViewScene::accept(Waiting next) {
 }
 
 Result<SceneChange> ViewScene::open(const v1::OpenView& message) {
-    const auto size = sizeFrom(message.viewport());
-    if (!size) return size.error();
     Waiting next;
     if (message.has_scene()) {
         auto scene = worker::sceneFrom(message.scene());
@@ -133,19 +131,12 @@ Result<SceneChange> ViewScene::open(const v1::OpenView& message) {
     }
     const auto change = accept(std::move(next));
     if (!change) return change.error();
-    size_ = *size;
     inputSeq_ = sceneSeq_ = message.input_seq();
     return *change;
 }
 
 Result<SceneChange> ViewScene::update(const v1::Update& message) {
     if (message.input_seq() <= inputSeq_) return SceneChange::kNone;
-    scene::PictureSize size = size_;
-    if (message.has_viewport()) {
-        const auto wanted = sizeFrom(message.viewport());
-        if (!wanted) return wanted.error();
-        size = *wanted;
-    }
     std::optional<scene::Camera> camera;
     if (message.has_camera()) {
         const auto wanted = worker::cameraFrom(message.camera());
@@ -166,10 +157,15 @@ Result<SceneChange> ViewScene::update(const v1::Update& message) {
         if (waiting_->scene) waiting_->scene->camera = *camera;
         waiting_->camera = camera;
     }
-    size_ = size;
     inputSeq_ = message.input_seq();
     if (message.has_scene()) sceneSeq_ = inputSeq_;
     return change;
+}
+
+bool ViewScene::advance(std::uint64_t seq) {
+    if (seq <= inputSeq_) return false;
+    inputSeq_ = seq;
+    return true;
 }
 
 Result<SceneChange> ViewScene::datasetChanged(const std::string& id) {
@@ -215,6 +211,12 @@ std::optional<std::uint64_t> ViewScene::revert() {
     scene_->camera = camera;
     isGood_ = true;
     return sceneSeq_;
+}
+
+std::vector<std::string> ViewScene::datasets() const {
+    std::vector<std::string> all = scene_ ? datasetsOf(*scene_) : std::vector<std::string>{};
+    if (waiting_) std::ranges::copy(waiting_->datasets(), std::back_inserter(all));
+    return all;
 }
 
 std::uint64_t ViewScene::dataVersion() const {

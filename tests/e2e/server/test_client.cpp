@@ -9,12 +9,14 @@
 
 namespace volcast::test {
 
-TestClient::TestClient(std::uint16_t port, Form form, const WsOptions& options)
+TestClient::TestClient(std::uint16_t port, Form form, const WsOptions& options,
+                       const std::vector<v1::Codec>& codecs)
     : socket_{WsClient::connect(port, options)}, form_{form} {
     if (!socket_) return;
     v1::ClientMessage hello;
     hello.mutable_hello()->set_major(protocol::kMajor);
     hello.mutable_hello()->set_client("test");
+    for (const v1::Codec codec : codecs) hello.mutable_hello()->add_codecs(codec);
     send(hello);
 }
 

@@ -27,9 +27,9 @@ class TestClient {
 public:
     enum class Form { kBinary, kJson };
 
-    /// Connects and says hello; check ok().
+    /// Connects and says hello; check ok(). Without `codecs` it shows what every client does.
     explicit TestClient(std::uint16_t port, Form form = Form::kBinary,
-                        const WsOptions& options = {});
+                        const WsOptions& options = {}, const std::vector<v1::Codec>& codecs = {});
 
     [[nodiscard]] bool ok() const { return socket_ != nullptr; }
     [[nodiscard]] WsClient& socket() { return *socket_; }

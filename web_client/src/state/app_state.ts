@@ -37,6 +37,8 @@ export interface PictureInfo {
   readonly timings: Timings | undefined;
   readonly bytes: number;
   readonly decodeMs: number;
+  /** Of a lossless picture: the hash of its pixels is the server's; undefined: it cannot be told. */
+  readonly exact?: boolean | undefined;
 }
 
 /** The transfer function as it is edited; what is drawn has its extinction times `density`. */

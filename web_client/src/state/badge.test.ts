@@ -29,6 +29,15 @@ describe("badge", () => {
     expect(badgeOf(state, 0)).toMatchObject({ kind: "refining", label: "Loading finer parts" });
   });
 
+  it("calls a picture exact only when the hash of its pixels was found equal", () => {
+    const state = connected();
+    expect(badgeOf(state, 0)).toMatchObject({ kind: "final", label: "Final, lossless" });
+    state.picture.value = { ...picture, exact: true };
+    expect(badgeOf(state, 0)).toMatchObject({ kind: "final", label: "Final, exact" });
+    state.picture.value = { ...picture, exact: false };
+    expect(badgeOf(state, 0)).toMatchObject({ kind: "failed", label: "Not exact" });
+  });
+
   it("says that the settings are not those of the picture, whatever the picture is", () => {
     const state = connected();
     const field = "layers[0].exposure";

@@ -1,4 +1,4 @@
-#include "server/session/view_frames.h"
+#include "server/session/viewer.h"
 
 #include <gtest/gtest.h>
 
@@ -7,18 +7,22 @@ namespace {
 
 using std::chrono::milliseconds;
 
-/// One view with a clock of its own; the renderer and the socket are played by the test.
-class ViewFramesTest : public testing::Test {
+/// One viewer of one rendition with a clock of its own; the view, the renderer and the socket are
+/// played by the test.
+class ViewerTest : public testing::Test {
 protected:
+    void SetUp() override { viewer.rendition = rendition; }
     void input(std::uint64_t seq) {
-        frames.input(now);
-        frames.want(
-            {.scene = {}, .size = {8, 4}, .inputSeq = seq, .dataVersion = 1, .inputAt = now});
+        viewer.input(now);
+        state.inputSeq = seq;
+        state.inputAt = now;
+        rendition->want();
     }
-    /// Takes what is to be drawn; returns its input_seq, 0 where there is nothing.
+    /// Asks for the newest state; returns its input_seq, 0 where nothing may be drawn.
     std::uint64_t draw() {
-        const auto state = frames.takeDraw(now, tag);
-        return state ? state->inputSeq : 0;
+        if (!rendition->wants() || !viewer.mayDraw(now)) return 0;
+        rendition->asked(++tag, state, now);
+        return state.inputSeq;
     }
     bool finish(std::uint64_t ofTag, bool ready = true) {
         auto picture = std::make_shared<workers::Picture>();
@@ -30,15 +34,17 @@ protected:
         frame.drawn = true;
         frame.ready = ready;
         frame.generation = 1;
-        return frames.rendered(frame);
+        return rendition->rendered(frame, ++pictures);
     }
-    std::optional<ReadyFrame> encodeAndSend() {
-        const auto task = frames.takeEncode(now);
-        if (!task) return std::nullopt;
-        EXPECT_FALSE(frames.encoded(encode(*task)).has_value());
-        return frames.takeFrame(now);
+    std::optional<ReadyFrame> encodeAndSend() { return encodeAndSend(viewer); }
+    std::optional<ReadyFrame> encodeAndSend(Viewer& to) {
+        const auto encoding = to.takeEncode(now);
+        if (!encoding) return std::nullopt;
+        if (!encoding->done) *encoding = encode(*encoding);
+        EXPECT_TRUE(to.encoded());
+        return to.takeFrame(now);
     }
-    void ack(std::uint32_t sequence) { frames.acked({.sequence = sequence}, now); }
+    void ack(std::uint32_t sequence) { viewer.acked({.sequence = sequence}, now); }
     /// Input, picture, JPEG, ack.
     void showFirst() {
         input(1);
@@ -48,13 +54,16 @@ protected:
         ack(1);
     }
 
-    ViewFrames frames{{}};
+    std::shared_ptr<Rendition> rendition =
+        std::make_shared<Rendition>(RenditionKey{.size = {8, 4}});
+    Viewer viewer{{.codecs = {}, .size = {8, 4}}};
+    DrawState state;
     TimePoint now = TimePoint{} + std::chrono::hours{1};
-    std::uint64_t tag = 0;
+    std::uint64_t tag = 0, pictures = 0;
 };
 
 // A client that sends faster than frames are drawn must still see frames.
-TEST_F(ViewFramesTest, ManyInputsDuringOneDrawDoNotLoseItsPicture) {
+TEST_F(ViewerTest, ManyInputsDuringOneDrawDoNotLoseItsPicture) {
     input(1);
     ASSERT_EQ(draw(), 1U);
     const std::uint64_t drawn = tag;
@@ -77,7 +86,7 @@ TEST_F(ViewFramesTest, ManyInputsDuringOneDrawDoNotLoseItsPicture) {
     EXPECT_EQ(last->header.input_seq(), 2000U);
 }
 
-TEST_F(ViewFramesTest, TheFirstPictureGoesOutAsJpegAtOnceAndLosslesslyWhenCalm) {
+TEST_F(ViewerTest, TheFirstPictureGoesOutAsJpegAtOnceAndLosslesslyWhenCalm) {
     input(1);
     ASSERT_EQ(draw(), 1U);
     ASSERT_TRUE(finish(tag));
@@ -89,8 +98,8 @@ TEST_F(ViewFramesTest, TheFirstPictureGoesOutAsJpegAtOnceAndLosslesslyWhenCalm) 
     EXPECT_TRUE(jpeg->header.redrawn());
     ack(1);
     EXPECT_FALSE(encodeAndSend().has_value());
-    EXPECT_EQ(frames.deadline(now), now + ViewFrames::kIdle);
-    now += ViewFrames::kIdle;
+    EXPECT_EQ(viewer.deadline(now), now + Viewer::kIdle);
+    now += Viewer::kIdle;
     const auto png = encodeAndSend();
     ASSERT_TRUE(png.has_value());
     EXPECT_EQ(png->header.codec(), v1::CODEC_PNG);
@@ -100,10 +109,10 @@ TEST_F(ViewFramesTest, TheFirstPictureGoesOutAsJpegAtOnceAndLosslesslyWhenCalm) 
     ack(2);
     now += std::chrono::hours{1};
     EXPECT_FALSE(encodeAndSend().has_value());
-    EXPECT_FALSE(frames.deadline(now).has_value());
+    EXPECT_FALSE(viewer.deadline(now).has_value());
 }
 
-TEST_F(ViewFramesTest, ANewerInputReplacesOneThatWaits) {
+TEST_F(ViewerTest, ANewerInputReplacesOneThatWaits) {
     input(1);
     input(2);
     input(3);
@@ -111,7 +120,7 @@ TEST_F(ViewFramesTest, ANewerInputReplacesOneThatWaits) {
     EXPECT_EQ(draw(), 0U);
 }
 
-TEST_F(ViewFramesTest, ANewerPictureReplacesOneThatWaitsForTheEncoder) {
+TEST_F(ViewerTest, ANewerPictureReplacesOneThatWaitsForTheEncoder) {
     input(1);
     draw();
     input(2);
@@ -123,7 +132,7 @@ TEST_F(ViewFramesTest, ANewerPictureReplacesOneThatWaitsForTheEncoder) {
     EXPECT_EQ(frame->header.input_seq(), 2U);
 }
 
-TEST_F(ViewFramesTest, NothingIsDrawnWithoutACredit) {
+TEST_F(ViewerTest, NothingIsDrawnWithoutACredit) {
     for (std::uint32_t seq : {1U, 2U}) {
         input(seq);
         ASSERT_EQ(draw(), seq);
@@ -136,19 +145,20 @@ TEST_F(ViewFramesTest, NothingIsDrawnWithoutACredit) {
     EXPECT_EQ(draw(), 3U);
 }
 
-TEST_F(ViewFramesTest, AnInputCancelsTheLosslessPicture) {
+TEST_F(ViewerTest, AnInputCancelsTheLosslessPicture) {
     showFirst();
-    now += ViewFrames::kIdle;
-    const auto task = frames.takeEncode(now);
-    ASSERT_TRUE(task.has_value());
-    ASSERT_TRUE(task->header.lossless());
+    now += Viewer::kIdle;
+    const auto encoding = viewer.takeEncode(now);
+    ASSERT_TRUE(encoding);
+    ASSERT_EQ(encoding->format.codec, v1::CODEC_PNG);
     input(2);
-    EXPECT_FALSE(frames.encoded(encode(*task)).has_value());
-    EXPECT_FALSE(frames.takeFrame(now).has_value());
+    EXPECT_FALSE(viewer.waitsFor(*encoding));
+    *encoding = encode(*encoding);
+    EXPECT_FALSE(viewer.takeFrame(now).has_value());
     EXPECT_EQ(draw(), 2U);
 }
 
-TEST_F(ViewFramesTest, CalmIsCountedInRoundTripsWhereTheyAreLong) {
+TEST_F(ViewerTest, CalmIsCountedInRoundTripsWhereTheyAreLong) {
     input(1);
     draw();
     finish(tag);
@@ -156,21 +166,21 @@ TEST_F(ViewFramesTest, CalmIsCountedInRoundTripsWhereTheyAreLong) {
     const TimePoint began = now;
     now += milliseconds{400};
     ack(1);
-    EXPECT_EQ(frames.deadline(now), began + milliseconds{600});
+    EXPECT_EQ(viewer.deadline(now), began + milliseconds{600});
 }
 
-TEST_F(ViewFramesTest, ASilentClientGetsItsFirstFramesThenOneEachTwoSeconds) {
+TEST_F(ViewerTest, ASilentClientGetsItsFirstFramesThenOneEachTwoSeconds) {
     input(1);
     draw();
     finish(tag);
     ASSERT_TRUE(encodeAndSend().has_value());
-    now += ViewFrames::kIdle;
+    now += Viewer::kIdle;
     ASSERT_TRUE(encodeAndSend().has_value());  // The lossless one takes the second credit.
     input(2);
     EXPECT_EQ(draw(), 0U);
-    EXPECT_EQ(frames.deadline(now), now + FrameFlow::kProbeAfter);
+    EXPECT_EQ(viewer.deadline(now), now + FrameFlow::kProbeAfter);
     now += FrameFlow::kProbeAfter;
-    frames.tick(now);
+    viewer.tick(now);
     EXPECT_EQ(draw(), 2U);
     finish(tag);
     ASSERT_TRUE(encodeAndSend().has_value());
@@ -178,13 +188,13 @@ TEST_F(ViewFramesTest, ASilentClientGetsItsFirstFramesThenOneEachTwoSeconds) {
     EXPECT_EQ(draw(), 0U);
 }
 
-TEST_F(ViewFramesTest, APictureDrawnAgainAfterALossIsSentAgain) {
+TEST_F(ViewerTest, APictureDrawnAgainAfterALossIsSentAgain) {
     showFirst();
     EXPECT_TRUE(finish(tag));
     EXPECT_TRUE(encodeAndSend().has_value());
 }
 
-TEST_F(ViewFramesTest, APictureThatIsNotReadyIsAskedForAgainUntilItIs) {
+TEST_F(ViewerTest, APictureThatIsNotReadyIsAskedForAgainUntilItIs) {
     input(1);
     ASSERT_EQ(draw(), 1U);
     for (int i = 0; i < 3; ++i) {
@@ -213,7 +223,7 @@ TEST_F(ViewFramesTest, APictureThatIsNotReadyIsAskedForAgainUntilItIs) {
     EXPECT_TRUE(lossless->header.ready());
 }
 
-TEST_F(ViewFramesTest, ANewerInputGoesBeforeWhatIsNotReady) {
+TEST_F(ViewerTest, ANewerInputGoesBeforeWhatIsNotReady) {
     input(1);
     ASSERT_EQ(draw(), 1U);
     input(2);
@@ -221,37 +231,41 @@ TEST_F(ViewFramesTest, ANewerInputGoesBeforeWhatIsNotReady) {
     EXPECT_EQ(draw(), 2U);
 }
 
-TEST_F(ViewFramesTest, WithPngAloneOnlyAReadyPictureIsFinal) {
-    frames = ViewFrames{{.jpeg = false, .png = true}};
+TEST_F(ViewerTest, WithPngAloneOnlyAReadyPictureIsFinal) {
+    viewer = Viewer{{.codecs = {.jpeg = false, .png = true}, .size = {8, 4}}};
+    viewer.rendition = rendition;
     input(1);
     ASSERT_EQ(draw(), 1U);
     ASSERT_TRUE(finish(tag, false));
     auto frame = encodeAndSend();
     ASSERT_TRUE(frame.has_value());
+    EXPECT_EQ(frame->header.codec(), v1::CODEC_PNG);
     EXPECT_FALSE(frame->header.final());
     ack(frame->sequence);
     ASSERT_EQ(draw(), 1U);
     ASSERT_TRUE(finish(tag));
     frame = encodeAndSend();
     ASSERT_TRUE(frame.has_value());
-    EXPECT_TRUE(frame->header.final());
+    EXPECT_TRUE(frame->header.lossless() && frame->header.final());
 }
 
-TEST_F(ViewFramesTest, PicturesThatNobodyAskedForAreIgnored) {
+TEST_F(ViewerTest, PicturesThatNobodyAskedForAreIgnored) {
     EXPECT_FALSE(finish(7));
     showFirst();
     EXPECT_FALSE(finish(tag + 1));
 }
 
-TEST_F(ViewFramesTest, AFailureFreesTheWayForTheNextInput) {
+TEST_F(ViewerTest, AFailureFreesTheWayForTheNextInput) {
     input(1);
     draw();
-    EXPECT_TRUE(frames.failed(tag));
+    bool newest = false;
+    EXPECT_TRUE(rendition->failed(tag, newest));
+    EXPECT_TRUE(newest);
     input(2);
     EXPECT_EQ(draw(), 2U);
 }
 
-TEST_F(ViewFramesTest, WaitIsCountedFromTheInput) {
+TEST_F(ViewerTest, WaitIsCountedFromTheInput) {
     input(1);
     now += milliseconds{30};
     draw();
@@ -262,23 +276,51 @@ TEST_F(ViewFramesTest, WaitIsCountedFromTheInput) {
     EXPECT_GT(frame->header.timings().encode_ms(), 0.0);
 }
 
-TEST(ViewFramesCodecs, AClientWithoutJpegGetsEveryPictureLosslessly) {
-    ViewFrames frames{{.jpeg = false, .png = true}};
-    const TimePoint now = TimePoint{} + std::chrono::hours{1};
-    std::uint64_t tag = 0;
-    frames.want({.scene = {}, .size = {1, 1}, .inputSeq = 1, .dataVersion = 0, .inputAt = now});
-    ASSERT_TRUE(frames.takeDraw(now, tag).has_value());
-    auto picture = std::make_shared<workers::Picture>();
-    picture->size = {1, 1};
-    picture->rgba8.resize(4);
-    workers::RenderedFrame frame;
-    frame.tag = tag;
-    frame.picture = picture;
-    frames.rendered(frame);
-    const auto task = frames.takeEncode(now);
-    ASSERT_TRUE(task.has_value());
-    EXPECT_EQ(task->header.codec(), v1::CODEC_PNG);
-    EXPECT_TRUE(task->header.lossless() && task->header.final());
+TEST_F(ViewerTest, TwoViewersShareTheBytesOfOnePicture) {
+    Viewer other{{.codecs = {}, .size = {8, 4}}};
+    other.rendition = rendition;
+    input(1);
+    draw();
+    finish(tag);
+    const auto mine = encodeAndSend(), theirs = encodeAndSend(other);
+    ASSERT_TRUE(mine && theirs);
+    EXPECT_EQ(mine->payload, theirs->payload) << "not the same bytes in memory";
+    EXPECT_FALSE(mine->payload->empty());
+}
+
+TEST_F(ViewerTest, ASlowViewerSkipsPicturesAndHoldsUpNobody) {
+    Viewer slow{{.codecs = {}, .size = {8, 4}}};
+    slow.rendition = rendition;
+    std::optional<ReadyFrame> lastOfSlow;
+    for (std::uint32_t seq = 1; seq <= 10; ++seq) {
+        input(seq);
+        ASSERT_EQ(draw(), seq) << "the fast one waits for the slow one";
+        ASSERT_TRUE(finish(tag));
+        const auto frame = encodeAndSend();
+        ASSERT_TRUE(frame.has_value());
+        EXPECT_EQ(frame->header.input_seq(), seq);
+        ack(frame->sequence);
+        if (auto one = encodeAndSend(slow)) lastOfSlow = std::move(one);
+    }
+    ASSERT_TRUE(lastOfSlow.has_value());
+    EXPECT_EQ(lastOfSlow->sequence, 2U) << "two frames are under way without an ack";
+    EXPECT_EQ(lastOfSlow->header.input_seq(), 2U);
+    slow.acked({.sequence = 1}, now);
+    lastOfSlow = encodeAndSend(slow);
+    ASSERT_TRUE(lastOfSlow.has_value());
+    EXPECT_EQ(lastOfSlow->header.input_seq(), 10U) << "the newest comes next";
+}
+
+TEST_F(ViewerTest, AnotherSizeShowsWhatIsBeingDrawnMeanwhile) {
+    input(1);
+    ASSERT_EQ(draw(), 1U);
+    rendition->change({.size = {16, 8}});
+    ASSERT_TRUE(rendition->wants());
+    ASSERT_EQ(draw(), 1U);
+    ASSERT_TRUE(finish(1));
+    EXPECT_EQ(encodeAndSend()->header.width(), 8U);
+    ASSERT_TRUE(finish(2));
+    EXPECT_TRUE(encodeAndSend().has_value());
 }
 
 }  // namespace
