@@ -63,6 +63,7 @@ HOMES = {  # what an angle include names -> who may name it
     r"EGL/": ["renderer/gpu"],
     r"epoxy/": GL_HOMES,
     r"tetgen|OpenImageIO": ["renderer/data/load", "tests"],
+    r"openssl/": ["server/session", "server/net", "tests"],
     r"turbojpeg|libdeflate": ["server/video", "tests"],
     r"seccomp|linux/landlock": ["renderer/base"],
 }

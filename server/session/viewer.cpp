@@ -55,6 +55,8 @@ bool Viewer::encoded() {
 
 v1::FrameHeader Viewer::headerOf(const Encoding& encoding, TimePoint now) const {
     v1::FrameHeader header = encoding.picture->header;
+    const bool wantedSize = encoding.picture->pixels->size == desc_.size;
+    if (wantedSize) header.set_input_seq(std::max(header.input_seq(), resizedBy_));
     header.set_codec(encoding.format.codec);
     header.set_lossless(encoding.format.codec == v1::CODEC_PNG);
     header.set_final(header.ready() && (header.lossless() || !desc_.codecs.png));

@@ -48,7 +48,13 @@ public:
 
     // What it wants.
     [[nodiscard]] RenditionKey wanted() const { return {.size = desc_.size}; }
-    void resize(scene::PictureSize size) { desc_.size = size; }
+    /// `seq`: of the update that asked for it, where that is not the scene's; frames of that size
+    /// say so.
+    void resize(scene::PictureSize size, std::uint64_t seq) {
+        desc_.size = size;
+        resizedBy_ = seq;
+    }
+    [[nodiscard]] std::uint64_t resizedBy() const noexcept { return resizedBy_; }
     [[nodiscard]] scene::PictureSize size() const noexcept { return desc_.size; }
 
     /// Somebody did something: a lossless frame waits for calm from now on.
@@ -95,6 +101,7 @@ private:
     [[nodiscard]] v1::FrameHeader headerOf(const Encoding& encoding, TimePoint now) const;
 
     Desc desc_;
+    std::uint64_t resizedBy_ = 0;
     FrameFlow flow_;
     TimePoint lastInput_{};
     std::uint64_t taken_ = 0;             ///< Number of the picture it took last.
