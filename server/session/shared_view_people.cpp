@@ -10,8 +10,9 @@ namespace volcast::session {
 
 Result<ViewerId> SharedView::join(Viewer::Desc desc, Member member, TimePoint now) {
     const Turn turn{*this};
-    people_.expire(now);
-    if (people_.all().size() >= parts_.maxPeople) {
+    if (ended_) return fail(ErrorCode::kNotFound, "the view has ended", "link");
+    expire(now);
+    if (people_.all().size() >= parts_.maxPeople && !people_.removeOneAway()) {
         return fail(ErrorCode::kLimitExceeded,
                     "this view has " + std::to_string(parts_.maxPeople) +
                         " people, the most that may be in one (--max-people)",

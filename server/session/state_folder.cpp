@@ -65,7 +65,7 @@ Result<std::unique_ptr<StateFolder>> StateFolder::create(const std::string& path
 StateFolder::StateFolder(std::string path, base::FileDescriptor folder)
     : path_{std::move(path)}, folder_{std::move(folder)} {}
 
-StateFolder::~StateFolder() {
+void StateFolder::finish() {
     {
         const std::lock_guard lock{mutex_};
         stopping_ = true;

@@ -30,8 +30,7 @@ public:
     StateFolder& operator=(const StateFolder&) = delete;
     StateFolder(StateFolder&&) = delete;
     StateFolder& operator=(StateFolder&&) = delete;
-    /// Writes what is still to be written.
-    ~StateFolder();
+    ~StateFolder() { finish(); }
 
     /// All that was saved. Files that are damaged, or no views, are named in the log and left
     /// alone.
@@ -40,6 +39,8 @@ public:
     void begin(Source source);
     /// The view is to be written soon; of several changes the newest. Any thread; soon back.
     void changed(const std::string& id);
+    /// Writes what is still to be written, and nothing from then on.
+    void finish();
 
 private:
     StateFolder(std::string path, base::FileDescriptor folder);

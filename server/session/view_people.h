@@ -39,6 +39,8 @@ public:
     /// Removes who is away for too long; true where somebody was.
     bool expire(TimePoint now);
     [[nodiscard]] std::optional<TimePoint> firstExpiry() const;
+    /// Removes who is away for longest and does not steer; false where nobody is.
+    bool removeOneAway();
 
     [[nodiscard]] bool steers(ViewerId id) const noexcept { return id == steers_; }
     /// 0: nobody.

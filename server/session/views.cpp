@@ -14,9 +14,7 @@ constexpr std::size_t kIdBytes = 16;
 
 Views::Views(ViewsDesc desc) : desc_{std::move(desc)}, people_{desc_.key} {
     if (!desc_.state) return;
-    desc_.parts.changed = [this](const std::string& id) {
-        if (desc_.state) desc_.state->changed(id);
-    };
+    desc_.parts.changed = [this](const std::string& id) { desc_.state->changed(id); };
     restore();
     desc_.state->begin([this](const std::string& id) { return saved(id); });
 }
@@ -137,8 +135,7 @@ Views::Entries::iterator Views::erase(Entries::iterator entry) {
 }
 
 void Views::clear() {
-    desc_.parts.changed = nullptr;
-    desc_.state.reset();  // Writes what is not written yet.
+    if (desc_.state) desc_.state->finish();  // That a view ends now is not to be saved.
     Entries all;
     {
         const std::lock_guard lock{mutex_};

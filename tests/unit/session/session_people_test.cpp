@@ -19,6 +19,9 @@ struct TestServer {
         CatalogueDesc desc;
         desc.importer = importCube;
         catalogue = *Catalogue::create(std::move(desc), render);
+        const std::string id = catalogue->list().datasets(0).id();
+        EXPECT_TRUE(catalogue->require(id).has_value());
+        while (!catalogue->standing(id).loaded) std::this_thread::yield();
         views = std::make_unique<Views>(ViewsDesc{.parts = {.render = render,
                                                             .catalogue = *catalogue,
                                                             .router = router,

@@ -62,6 +62,16 @@ TEST_F(ViewPeopleTest, WhoIsAwayKeepsControlUntilTheTimeIsOver) {
     EXPECT_EQ(people.message(1).people_size(), 2);
 }
 
+TEST_F(ViewPeopleTest, WhoIsAwayMakesRoomButNotWhoSteers) {
+    people.away(1, now);
+    EXPECT_FALSE(people.removeOneAway());
+    people.away(3, now + std::chrono::seconds{2});
+    people.away(2, now + std::chrono::seconds{1});
+    EXPECT_TRUE(people.removeOneAway());
+    EXPECT_FALSE(people.all().contains(2));
+    EXPECT_TRUE(people.all().contains(3));
+}
+
 TEST_F(ViewPeopleTest, WhoComesBackIsWhoTheyWere) {
     people.away(1, now);
     EXPECT_EQ(people.find(11, 1), ViewerId{1});
