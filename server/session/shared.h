@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <string>
 
 #include "server/session/catalogue.h"
@@ -28,6 +30,9 @@ struct ViewParts {
     ViewRouter& router;
     EncodePool& encoders;
     std::uint64_t maxPixels = SessionLimits{}.maxViewPixels;
+    std::size_t maxPeople = 256;  ///< In one view.
+    /// The view `id` has something new to save; called without locks of views.
+    std::function<void(const std::string& id)> changed = {};
 };
 
 /// What all sessions of a server share; all of it outlives them.

@@ -162,6 +162,13 @@ Result<SceneChange> ViewScene::update(const v1::Update& message) {
     return change;
 }
 
+Result<SceneChange> ViewScene::put(scene::Scene scene, std::uint64_t seq) {
+    const auto change = accept({.scene = std::move(scene), .seqBefore = shownSeq()});
+    if (!change) return change.error();
+    inputSeq_ = sceneSeq_ = seq;
+    return *change;
+}
+
 bool ViewScene::advance(std::uint64_t seq) {
     if (seq <= inputSeq_) return false;
     inputSeq_ = seq;

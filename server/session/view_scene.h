@@ -34,6 +34,8 @@ public:
     /// kNotFound for unknown data.
     Result<SceneChange> open(const v1::OpenView& message);
     Result<SceneChange> update(const v1::Update& message);
+    /// Takes a whole scene, as an update of number `seq` would.
+    Result<SceneChange> put(scene::Scene scene, std::uint64_t seq);
     /// An update that changes nothing of the scene; false for an old one.
     bool advance(std::uint64_t seq);
 
