@@ -167,6 +167,9 @@ const port: AppPort = {
     if (state.orbit.value) state.orbit.value = withOtherProjection(state.orbit.value);
   },
   resetCamera: () => resetCamera(state),
+  explain: () => session.explain(),
+  measureAccuracy: () => session.measureAccuracy(),
+  stopMeasuring: () => session.stopMeasuring(),
   toggleFullscreen() {
     const change = document.fullscreenElement
       ? document.exitFullscreen()

@@ -5,6 +5,7 @@ import type {
   DatasetInfo,
   FieldInfo,
   Picked,
+  Plan,
   ViewState,
   Welcome,
 } from "../net/gen/volcast/v1/session_pb";
@@ -12,6 +13,7 @@ import { referenceLengthOf } from "../transfer/opacity";
 import type { TransferFunction } from "../transfer/transfer_function";
 import type { Bounds, Orbit } from "../view/camera";
 import { length, subtract, type Vec3 } from "../view/vec3";
+import type { Measured } from "./accuracy";
 import { type History, startHistory } from "./history";
 import type { DescribedCode } from "./shader_actions";
 
@@ -135,6 +137,10 @@ export function createAppState() {
     picture: signal<PictureInfo | undefined>(undefined),
     /** What the picture shows under the resting pointer. */
     picked: signal<Picked | undefined>(undefined),
+    /** How the newest picture was drawn, where that was asked. */
+    plan: signal<Plan | undefined>(undefined),
+    /** What ways to draw a view are worth, where that was measured. */
+    measured: signal<Measured | undefined>(undefined),
     newestInput: signal(0n),
     notices: signal<readonly Notice[]>([]),
     framesPerSecond: signal(0),

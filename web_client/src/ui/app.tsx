@@ -7,10 +7,12 @@ import { BadgeView } from "./badge";
 import { ChannelList } from "./channel_list";
 import { ClipEditor } from "./clip_editor";
 import { DataList } from "./data_list";
+import { ExplainPanel } from "./explain_panel";
 import { FieldPicker } from "./field_picker";
 import { Help } from "./help";
 import { Icon, IconButton } from "./icons";
 import { MapEditor } from "./map_editor";
+import { MeasurePanel } from "./measure_panel";
 import { ModelPicker } from "./model_picker";
 import { Notices } from "./notices";
 import { PickedLine } from "./picked_line";
@@ -135,6 +137,8 @@ export function App({ state, port, helpOpen, picture }: Props) {
           <VoxelPanel state={state} />
           <ShaderPanel state={state} />
           <AccuracyPanel state={state} />
+          <MeasurePanel state={state} port={port} />
+          <ExplainPanel state={state} port={port} />
           <ClipEditor state={state} />
           <BackgroundPicker state={state} />
           <Footer state={state} />

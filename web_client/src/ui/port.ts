@@ -8,4 +8,7 @@ export interface AppPort {
   toggleProjection(): void;
   resetCamera(): void;
   toggleFullscreen(): void;
+  explain(): void;
+  measureAccuracy(): void;
+  stopMeasuring(): void;
 }
