@@ -15,7 +15,10 @@ import type { Bounds, Orbit } from "../view/camera";
 import { length, subtract, type Vec3 } from "../view/vec3";
 import type { Measured } from "./accuracy";
 import { type History, startHistory } from "./history";
+import type { Recording } from "./recording";
+import type { Sample } from "./samples";
 import type { DescribedCode } from "./shader_actions";
+import { kUsualOptions, type ViewOptions } from "./view_options";
 
 export type ConnectionStatus =
   | { readonly kind: "connecting" }
@@ -123,6 +126,13 @@ export function createAppState() {
     referenceLength,
     orbit: signal<Orbit | undefined>(undefined),
     home: signal<Orbit | undefined>(undefined),
+    /** The camera of the picture on the screen. */
+    shownOrbit: signal<Orbit | undefined>(undefined),
+    /** A turn that is being recorded. */
+    recording: signal<Recording | undefined>(undefined),
+    /** Of the newest pictures, while performance is shown. */
+    samples: signal<readonly Sample[]>([]),
+    options: signal<ViewOptions>(kUsualOptions),
     edit,
     refusal: signal<Refusal | undefined>(undefined),
     /** The settings that the server took last: what a refusal leaves on the screen. */

@@ -133,6 +133,9 @@ export function AccuracyChart({ state }: Props) {
               onFocus={() => {
                 pointed.value = p;
               }}
+              onBlur={() => {
+                pointed.value = undefined;
+              }}
             />
           ))}
         </div>

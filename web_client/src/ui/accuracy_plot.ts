@@ -67,9 +67,9 @@ export function drawAccuracy(
     filter: (_, splits) => splits,
     values: (_, splits) => splits.map(text),
   });
-  const errorName = (v: number): string => (v <= kFloor ? "0" : formatNumber(v, 1));
-  const ticks = logTicks(errors, 5);
   const hasZero = points.some((p) => p.error === kFloor);
+  const errorName = (v: number): string => (hasZero && v <= kFloor ? "0" : formatNumber(v, 1));
+  const ticks = logTicks(errors, 5);
   const plot = new uPlot(
     {
       width: host.clientWidth,
