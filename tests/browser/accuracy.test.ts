@@ -83,6 +83,18 @@ describe("error against time", () => {
     await photograph("accuracy-table-640", ".accuracy-table");
   });
 
+  it.each([
+    ["1280", { width: 1280, height: 800 }],
+    ["390", { width: 390, height: 844 }],
+  ])("fits %s pixels", async (name, size) => {
+    await client.after(() => client.page.setViewportSize(size));
+    await photograph(`accuracy-${name}`, ".accuracy-table");
+    expect(await violations(client)).toEqual([]);
+    const body = client.page.locator(".panel-body");
+    expect(await body.evaluate((e) => e.scrollWidth - e.clientWidth)).toBe(0);
+    await client.after(() => client.page.setViewportSize({ width: 640, height: 1400 }));
+  });
+
   it("says that it is of an earlier view, once the camera turned", async () => {
     await client.after(() => client.drag(80, 20));
     expect(await status().textContent()).toMatch(/as it was when/);

@@ -29,7 +29,7 @@ async function ask(pictures: number, format: string): Promise<void> {
   const count = client.page.getByLabel("Pictures", { exact: true });
   await count.fill(String(pictures));
   await count.press("Enter");
-  await client.page.getByLabel("As", { exact: true }).selectOption(format);
+  await client.page.getByLabel("Save as").selectOption(format);
   await client.page.getByRole("button", { name: "Record", exact: true }).click();
 }
 

@@ -46,7 +46,7 @@ export function hudRows(all: readonly Sample[], now: number): HudRow[] {
     { name: "Input to drawn", series: of(samples, (s) => s.latency), text: formatMs },
     { name: "Render", series: of(samples, (s) => s.render || undefined), text: formatMs },
     { name: "Encode", series: of(samples, (s) => s.encode), text: formatMs },
-    { name: "Network", series: of(samples, (s) => s.network), text: formatMs },
+    { name: "Network and rest", series: of(samples, (s) => s.network), text: formatMs },
     { name: "Decode", series: of(samples, (s) => s.decode), text: formatMs },
     { name: "Frames/s", series: perSecond(samples, now, () => 1), text: plain },
     {

@@ -32,7 +32,7 @@ export function RecordForm({ state, port, begun }: Props) {
         }}
       />
       <SelectLine
-        label="As"
+        label="Save as"
         value={format.value}
         options={formats}
         take={(next) => {
