@@ -40,18 +40,23 @@ export async function webm(pictures: readonly Blob[], signal: AbortSignal): Prom
     recorder.onstop = resolve;
     recorder.onerror = () => reject(new Error("the browser's recorder failed"));
   });
+  let started = false;
+  recorder.onstart = () => {
+    started = true;
+  };
   recorder.start();
   for (const picture of pictures) {
-    if (signal.aborted) break;
     const bitmap = await createImageBitmap(picture);
-    context.drawImage(bitmap, 0, 0, width, height);
+    do {
+      signal.throwIfAborted();
+      context.drawImage(bitmap, 0, 0, width, height);
+      track.requestFrame();
+      await elapsed(1000 / kFramesPerSecond);
+    } while (!started); // What is played before its encoder runs would be lost.
     bitmap.close();
-    track.requestFrame();
-    await elapsed(1000 / kFramesPerSecond);
   }
   recorder.stop();
   await ended;
   track.stop();
-  signal.throwIfAborted();
   return new Blob(parts, { type: "video/webm" });
 }
