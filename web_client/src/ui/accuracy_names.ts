@@ -23,9 +23,9 @@ export function errorText(error: number): string {
   return steps === 0 ? "0" : formatNumber(steps, 2);
 }
 
-/** "12 ms, error 0.3/255 rms, 2.1/255 at most". */
+/** "12 ms, error 0.3 rms, 2.1 at most (1/255)". */
 export function worthOf(row: AccuracyRow): string {
   if (row.refusal) return row.refusal;
-  const error = `${errorText(row.rmsError)}/255 rms, ${errorText(row.maxError)}/255 at most`;
+  const error = `${errorText(row.rmsError)} rms, ${errorText(row.maxError)} at most (1/255)`;
   return `${formatMs(row.medianMs)}, error ${error}`;
 }
