@@ -12,6 +12,7 @@ export default defineConfig({
     alias: {
       "playwright-core": installed("playwright-core"),
       "axe-core": installed("axe-core"),
+      fflate: installed("fflate"),
     },
   },
   test: {

@@ -1,17 +1,14 @@
-import { mkdirSync, readFileSync } from "node:fs";
-import { createRequire } from "node:module";
+import { mkdirSync } from "node:fs";
 import { join } from "node:path";
 import type { Browser, BrowserContextOptions } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
+import { violations } from "./support/accessibility";
 import { Client, launch } from "./support/client";
 import { decodePng, difference } from "./support/pixels";
 import { Server, screenshotFolder } from "./support/server";
 
 let server: Server;
 let browser: Browser;
-
-const require = createRequire(new URL("../../web_client/package.json", import.meta.url));
-const kAxe = readFileSync(require.resolve("axe-core"), "utf8");
 
 beforeAll(async () => {
   server = await Server.start();
@@ -26,19 +23,6 @@ afterAll(async () => {
 
 const kWide = { viewport: { width: 1280, height: 800 } };
 const kNarrow = { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true };
-
-/** Rules that axe finds broken, with the first element of each. */
-async function violations(client: Client): Promise<string[]> {
-  await client.page.evaluate(kAxe);
-  return client.page.evaluate(async () => {
-    interface Axe {
-      run(): Promise<{ violations: { id: string; nodes: { html: string }[] }[] }>;
-    }
-    const { axe } = window as unknown as { axe: Axe };
-    const result = await axe.run();
-    return result.violations.map((v) => `${v.id}: ${v.nodes[0]?.html}`);
-  });
-}
 
 interface Look {
   readonly name: string;

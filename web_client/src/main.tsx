@@ -3,6 +3,7 @@ import { render } from "preact";
 import type { Frame } from "./net/framing";
 import { Codec } from "./net/gen/volcast/v1/frame_pb";
 import { Session } from "./net/session";
+import { recordTurn } from "./record_turn";
 import { savePicture } from "./save_picture";
 import {
   adoptScene,
@@ -17,18 +18,23 @@ import { createAppState, notify, type PictureInfo } from "./state/app_state";
 import type { ViewDocument } from "./state/document";
 import { keepDocument, keptDocument } from "./state/keeper";
 import { Recorder, type Stages } from "./state/recorder";
+import { keepSample, sampleOf } from "./state/samples";
 import { codeToDescribe } from "./state/shader_actions";
+import { followShownOrbit } from "./state/shown_orbit";
+import { keepOptions, switched, type ViewOption } from "./state/view_options";
 import { App } from "./ui/app";
 import type { AppPort } from "./ui/port";
 import "./ui/style.css";
 import { codecsHere } from "./video/codecs";
 import { openScreen } from "./video/screen";
 import type { EncodedPicture, PictureReport } from "./video/worker_messages";
-import { withOtherProjection } from "./view/camera";
+import { dragged, type Orbit, withOtherProjection } from "./view/camera";
 import { controlCamera } from "./view/camera_control";
+import { controlFlight } from "./view/fly_control";
 import { followHover, type HoverPlace, pixelAt } from "./view/hover";
 import { type KeyAction, meaningOf, takesKey } from "./view/keyboard";
 import { createPictureElement, keepHeight } from "./view/picture_element";
+import { levelled, looked, rolled, type Turn } from "./view/turning";
 import { followSize, limited } from "./view/viewport";
 
 declare global {
@@ -63,6 +69,9 @@ const left = new Map<string, ViewDocument>();
 /** True while signals take over what the server has already. */
 let adopting = false;
 
+keepOptions(state.options);
+const shownOrbit = followShownOrbit(state);
+
 const kept = keptDocument();
 if (kept) restoreDocument(state, kept);
 
@@ -76,9 +85,13 @@ const session = new Session(address, state, codecsHere(), {
   patch: (frame) => screen.tryPatch(encodedPicture(frame, 0)),
   opened(scene) {
     adopt(() => adoptScene(state, scene));
+    shownOrbit.opened();
     if (state.orbit.value !== state.home.value) session.mark("camera");
   },
-  restored: (document) => adopt(() => restoreDocument(state, document)),
+  restored(document) {
+    adopt(() => restoreDocument(state, document));
+    shownOrbit.opened();
+  },
   current: () => currentDocument(state),
 });
 
@@ -108,7 +121,19 @@ function reported(report: PictureReport): void {
   if (report.kind !== "drawn" || !item) return;
   const { header } = item.frame;
   const drawnAt = report.doneAt - performance.timeOrigin;
-  recorder.drawn(drawnAt, session.takeInputTime(header.inputSeq));
+  const inputAt = session.takeInputTime(header.inputSeq);
+  recorder.drawn(drawnAt, inputAt);
+  keepSample(
+    state,
+    sampleOf({
+      header,
+      bytes: item.bytes,
+      at: drawnAt,
+      latency: inputAt === undefined ? undefined : drawnAt - inputAt,
+      holdMs,
+      decodeMs: report.decodeMs,
+    }),
+  );
   if (header.redrawn && header.timings) {
     const { waitMs, uploadMs, drawMs, readbackMs, encodeMs, queueMs } = header.timings;
     recorder.took({
@@ -181,10 +206,15 @@ const port: AppPort = {
   drawAgain: () => session.drawAgain(),
   reconnect: () => session.connect(),
   screenshot: () => void savePicture(state, screen),
+  recordTurn: (wish) => void recordTurn(state, screen, wish),
   toggleProjection() {
     if (state.orbit.value) state.orbit.value = withOtherProjection(state.orbit.value);
   },
   resetCamera: () => resetCamera(state),
+  explain: () => session.explain(),
+  measureAccuracy: () => session.measureAccuracy(),
+  stopMeasuring: () => session.stopMeasuring(),
+  toggle: (name) => toggleOption(name),
   toggleFullscreen() {
     const change = document.fullscreenElement
       ? document.exitFullscreen()
@@ -201,12 +231,23 @@ followSize(picture.element, (width, height) => {
   state.viewport.value = size;
 });
 
-controlCamera(picture.element, {
+const camera = {
   orbit: () => state.orbit.value,
-  move(next, inputAt) {
+  move(next: Orbit, inputAt: number): void {
     state.input.at = inputAt;
     state.orbit.value = next;
   },
+};
+const flight = controlFlight(camera);
+
+function turn(around: boolean): Turn {
+  if (around || flight.flying()) return looked;
+  return state.options.value.trackball ? rolled : dragged;
+}
+
+controlCamera(picture.element, {
+  ...camera,
+  turn,
   reset(inputAt) {
     state.input.at = inputAt;
     resetCamera(state);
@@ -227,6 +268,15 @@ effect(() => {
   });
 });
 
+/** A turntable that follows a trackball stands upright again. */
+function toggleOption(name: ViewOption): void {
+  state.options.value = switched(state.options.value, name);
+  const { orbit, home, options } = state;
+  if (name === "trackball" && !options.value.trackball && orbit.value && home.value) {
+    orbit.value = levelled(orbit.value, home.value.axis);
+  }
+}
+
 const kKeyActions: Readonly<Record<KeyAction, () => void>> = {
   reset: port.resetCamera,
   fullscreen: port.toggleFullscreen,
@@ -235,11 +285,16 @@ const kKeyActions: Readonly<Record<KeyAction, () => void>> = {
   },
   undo: () => undo(state),
   redo: () => redo(state),
+  save: port.screenshot,
+  trackball: () => toggleOption("trackball"),
+  box: () => toggleOption("box"),
+  legend: () => toggleOption("legend"),
+  hud: () => toggleOption("hud"),
 };
 
 window.addEventListener("keydown", (event) => {
   if (event.defaultPrevented || takesKey(event.target, event.key)) return;
-  const meaning = meaningOf(event);
+  const meaning = meaningOf(event, turn(false));
   if (!meaning) return;
   event.preventDefault();
   state.input.at = event.timeStamp;

@@ -1,4 +1,5 @@
 import { effect } from "@preact/signals";
+import { fileNameOf, saveFile } from "./save_file";
 import type { AppState } from "./state/app_state";
 import { badgeOf } from "./state/badge";
 import type { Screen } from "./video/screen";
@@ -23,11 +24,6 @@ export async function savePicture(state: AppState, screen: Screen): Promise<void
   await exactPicture(state);
   const picture = await screen.snapshot();
   if (!picture) return;
-  const name = (state.dataset.value?.name ?? "picture").replace(/[^\w.-]+/g, "_");
-  const time = new Date().toISOString().slice(0, 19).replace(/[:T]/g, "-");
-  const link = document.createElement("a");
-  link.href = URL.createObjectURL(picture);
-  link.download = `volcast-${name}-${time}.${picture.type === "image/png" ? "png" : "jpg"}`;
-  link.click();
-  setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
+  const end = picture.type === "image/png" ? "png" : "jpg";
+  saveFile(picture, fileNameOf(state.dataset.value?.name ?? "picture", end));
 }

@@ -1,4 +1,5 @@
 import { create, fromBinary, type MessageInitShape, toBinary } from "@bufbuild/protobuf";
+import { measuringBegan, measuringEnded, measuringReported } from "../state/accuracy";
 import { type AppState, type Edit, notify } from "../state/app_state";
 import type { ViewDocument } from "../state/document";
 import { sentenceOf } from "../state/refusal";
@@ -147,6 +148,24 @@ export class Session {
     this.#state.picked.value = undefined;
   }
 
+  /** Asks how the newest picture was drawn; the answer is in `state.plan`. */
+  explain(): void {
+    if (this.#view !== undefined) this.#send({ case: "explain", value: { view: this.#view } });
+  }
+
+  /** Measures the view's accuracy and cost; reports arrive in `state.measured`. */
+  measureAccuracy(): void {
+    if (this.#view === undefined) return;
+    measuringBegan(this.#state);
+    this.#send({ case: "measureAccuracy", value: { view: this.#view } });
+  }
+
+  stopMeasuring(): void {
+    const { value } = this.#state.measured;
+    if (this.#view === undefined || !value?.running) return;
+    this.#send({ case: "measureAccuracy", value: { view: this.#view, stop: true } });
+  }
+
   /** Asks what the server reads in code; the newest answer alone counts. */
   describeShader(asked: CodeOfData): void {
     const request = (this.#describing?.request ?? 0) + 1;
@@ -205,6 +224,7 @@ export class Session {
     this.#view = undefined;
     this.#opening = undefined;
     this.#state.view.value = undefined;
+    measuringEnded(this.#state, "the connection was lost");
     this.#state.connection.value = { kind: "lost", retryAt, reason };
   }
 
@@ -317,6 +337,12 @@ export class Session {
       case "picked":
         this.#picked(body.value);
         break;
+      case "plan":
+        if (body.value.view === this.#view) state.plan.value = body.value;
+        break;
+      case "accuracyReport":
+        if (body.value.view === this.#view) measuringReported(state, body.value);
+        break;
       case "shaderDescription": {
         const { request, controls, complaints } = body.value;
         const described = this.#describing;
@@ -343,6 +369,7 @@ export class Session {
     this.#opening = undefined;
     this.#wish = undefined;
     this.#view = view;
+    measuringEnded(this.#state, "other data is shown");
     this.#state.pendingDataset.value = undefined;
     this.#state.view.value = { state: ViewState.ACTIVE, message: "" };
     if (before !== undefined) this.#close(before);
@@ -370,6 +397,10 @@ export class Session {
   #error(error: ErrorMessage): void {
     // A pixel of a picture that newer ones have pushed out: the next picture is asked again.
     if (error.field === "input_seq" && error.inputSeq === this.#picking?.inputSeq) return;
+    if (this.#refusesMeasuring(error)) {
+      measuringEnded(this.#state, sentenceOf({ field: "", message: error.message }));
+      return;
+    }
     if (error.inputSeq > 0n) this.#pacer.answered(error.inputSeq);
     const text = sentenceOf(error);
     if (this.#opening && error.view === this.#opening.view) this.#giveUpOpening(text);
@@ -383,6 +414,10 @@ export class Session {
       // Code that drew well has failed later: the view is back at what was there before it.
       if (error.view === this.#view && /\.shader\./.test(error.field)) removeCode(this.#state);
     }
+  }
+
+  #refusesMeasuring({ view, field }: ErrorMessage): boolean {
+    return field === "view" && view === this.#view && this.#state.measured.value?.running === true;
   }
 
   /** The newest settings are not drawn; what was drawn before them stays. */

@@ -5,6 +5,7 @@ import type {
   DatasetInfo,
   FieldInfo,
   Picked,
+  Plan,
   ViewState,
   Welcome,
 } from "../net/gen/volcast/v1/session_pb";
@@ -13,8 +14,12 @@ import { referenceLengthOf } from "../transfer/opacity";
 import type { TransferFunction } from "../transfer/transfer_function";
 import type { Bounds, Orbit } from "../view/camera";
 import { length, subtract, type Vec3 } from "../view/vec3";
+import type { Measured } from "./accuracy";
 import { type History, startHistory } from "./history";
+import type { Recording } from "./recording";
+import type { Sample } from "./samples";
 import type { DescribedCode } from "./shader_actions";
+import { kUsualOptions, type ViewOptions } from "./view_options";
 
 export type ConnectionStatus =
   | { readonly kind: "connecting" }
@@ -128,6 +133,13 @@ export function createAppState() {
     referenceLength,
     orbit: signal<Orbit | undefined>(undefined),
     home: signal<Orbit | undefined>(undefined),
+    /** The camera of the picture on the screen. */
+    shownOrbit: signal<Orbit | undefined>(undefined),
+    /** A turn that is being recorded. */
+    recording: signal<Recording | undefined>(undefined),
+    /** Of the newest pictures, while performance is shown. */
+    samples: signal<readonly Sample[]>([]),
+    options: signal<ViewOptions>(kUsualOptions),
     edit,
     refusal: signal<Refusal | undefined>(undefined),
     /** The settings that the server took last: what a refusal leaves on the screen. */
@@ -142,6 +154,10 @@ export function createAppState() {
     picture: signal<PictureInfo | undefined>(undefined),
     /** What the picture shows under the resting pointer. */
     picked: signal<Picked | undefined>(undefined),
+    /** How the newest picture was drawn, where that was asked. */
+    plan: signal<Plan | undefined>(undefined),
+    /** What ways to draw a view are worth, where that was measured. */
+    measured: signal<Measured | undefined>(undefined),
     newestInput: signal(0n),
     notices: signal<readonly Notice[]>([]),
     framesPerSecond: signal(0),

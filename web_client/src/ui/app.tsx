@@ -7,17 +7,22 @@ import { BadgeView } from "./badge";
 import { ChannelList } from "./channel_list";
 import { ClipEditor } from "./clip_editor";
 import { DataList } from "./data_list";
+import { ExplainPanel } from "./explain_panel";
 import { FieldPicker } from "./field_picker";
 import { Help } from "./help";
 import { Icon, IconButton } from "./icons";
+import { lazy } from "./lazy";
 import { MapEditor } from "./map_editor";
+import { MeasurePanel } from "./measure_panel";
 import { ModelPicker } from "./model_picker";
 import { Notices } from "./notices";
 import { PickedLine } from "./picked_line";
 import type { AppPort } from "./port";
 import { Readout } from "./readout";
+import { RecordingChip } from "./recording_chip";
 import { RefusalNote } from "./refusal_note";
 import { ShaderPanel } from "./shader_panel";
+import { ViewMenu } from "./view_menu";
 import { VoxelPanel } from "./voxel_panel";
 
 interface Props {
@@ -26,6 +31,16 @@ interface Props {
   readonly helpOpen: Signal<boolean>;
   /** The element that the picture is drawn in; it outlives every rendering of the panels. */
   readonly picture: (host: HTMLElement | null) => void;
+}
+
+const Overlay = lazy(async () => (await import("./overlay")).Overlay);
+
+const Hud = lazy(async () => (await import("./hud")).Hud);
+
+/** Fetched only where something of it is to be seen. */
+function Overlays({ state }: { readonly state: AppState }) {
+  const { axes, scaleBar, box, legend } = state.options.value;
+  return axes || scaleBar || box || legend ? <Overlay state={state} /> : null;
 }
 
 function Tools({ state, port, helpOpen }: Omit<Props, "picture">) {
@@ -39,7 +54,8 @@ function Tools({ state, port, helpOpen }: Omit<Props, "picture">) {
         shortcut="P"
         onClick={port.toggleProjection}
       />
-      <IconButton icon="camera" label="Save the picture" onClick={port.screenshot} />
+      <ViewMenu state={state} port={port} />
+      <IconButton icon="camera" label="Save the picture" shortcut="C" onClick={port.screenshot} />
       <IconButton
         icon="fullscreen"
         label="Full screen"
@@ -101,8 +117,11 @@ export function App({ state, port, helpOpen, picture }: Props) {
     <div class="page" data-panel={open.value ? "open" : "closed"}>
       <main class="stage">
         <div class="picture-host" ref={picture} />
+        <Overlays state={state} />
         <Tools state={state} port={port} helpOpen={helpOpen} />
         <Readout state={state} />
+        {state.options.value.hud && <Hud state={state} />}
+        <RecordingChip state={state} />
         <PickedLine state={state} />
         <Notices state={state} />
       </main>
@@ -135,6 +154,8 @@ export function App({ state, port, helpOpen, picture }: Props) {
           <VoxelPanel state={state} />
           <ShaderPanel state={state} />
           <AccuracyPanel state={state} />
+          <MeasurePanel state={state} port={port} />
+          <ExplainPanel state={state} port={port} />
           <ClipEditor state={state} />
           <BackgroundPicker state={state} />
           <Footer state={state} />

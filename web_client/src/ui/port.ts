@@ -1,3 +1,6 @@
+import type { TurnWish } from "../state/recording";
+import type { ViewOption } from "../state/view_options";
+
 /** What the panels ask of the rest of the client, beyond changing signals. */
 export interface AppPort {
   openDataset(id: string): void;
@@ -5,7 +8,12 @@ export interface AppPort {
   drawAgain(): void;
   reconnect(): void;
   screenshot(): void;
+  recordTurn(wish: TurnWish): void;
   toggleProjection(): void;
   resetCamera(): void;
+  toggle(option: ViewOption): void;
   toggleFullscreen(): void;
+  explain(): void;
+  measureAccuracy(): void;
+  stopMeasuring(): void;
 }

@@ -66,6 +66,18 @@ export function heightAtTarget(orbit: Orbit): number {
   return 2 * orbit.distance * Math.tan(halfFov(orbit));
 }
 
+/** The camera at its distance in the direction `toEye` from the target, a turntable about `axis`. */
+export function seenFrom(orbit: Orbit, toEye: Vec3, axis: Vec3): Orbit {
+  const [first, second] = turntable(axis);
+  const level = Math.hypot(dot(toEye, first), dot(toEye, second));
+  return {
+    ...orbit,
+    axis,
+    yaw: level > 1e-9 ? Math.atan2(dot(toEye, second), dot(toEye, first)) : -Math.PI / 2,
+    pitch: Math.atan2(dot(toEye, axis), level),
+  };
+}
+
 /** Reads a pose; its `up` becomes the turntable's axis. */
 export function orbitFrom(pose: CameraPose): Orbit {
   const axis = normalised(pose.up);
@@ -149,18 +161,24 @@ export function fitted(orbit: Orbit, bounds: Bounds, aspect: number): Orbit {
   };
 }
 
-/** Looks along a coordinate axis from its positive side, or from its negative one. */
+/** The coordinate axis, or its opposite, that is nearest to a direction. */
+function straightened(direction: Vec3): Vec3 {
+  const most = Math.max(...direction.map(Math.abs));
+  const at = direction.findIndex((c) => Math.abs(c) === most);
+  return alongCoordinate(at, (direction[at] ?? 1) < 0);
+}
+
+const alongCoordinate = (axis: number, negative: boolean): Vec3 => {
+  const part = (i: number): number => (i === axis ? (negative ? -1 : 1) : 0);
+  return [part(0), part(1), part(2)];
+};
+
+/**
+ * Looks along a coordinate axis from its positive side, or from its negative one; whatever a
+ * trackball tilted stands upright again.
+ */
 export function alongAxis(orbit: Orbit, axis: 0 | 1 | 2, negative: boolean): Orbit {
-  const sign = negative ? -1 : 1;
-  const away: Vec3 = [axis === 0 ? sign : 0, axis === 1 ? sign : 0, axis === 2 ? sign : 0];
-  const [first, second] = turntable(orbit.axis);
-  const height = dot(away, orbit.axis);
-  const level = Math.hypot(dot(away, first), dot(away, second));
-  return {
-    ...orbit,
-    yaw: level > 1e-9 ? Math.atan2(dot(away, second), dot(away, first)) : -Math.PI / 2,
-    pitch: Math.atan2(height, level),
-  };
+  return seenFrom(orbit, alongCoordinate(axis, negative), straightened(orbit.axis));
 }
 
 export function withOtherProjection(orbit: Orbit): Orbit {

@@ -1,10 +1,13 @@
-import { dollied, dragged, type Orbit, panned, type ScreenPoint } from "./camera";
+import { dollied, type Orbit, panned, type ScreenPoint } from "./camera";
+import type { Turn } from "./turning";
 
 /** What the control needs to know and to say; `inputAt` is when the input happened. */
 export interface CameraPort {
   orbit(): Orbit | undefined;
   move(next: Orbit, inputAt: number): void;
   reset(inputAt: number): void;
+  /** What a drag does; `around`: asked for by the Alt key. */
+  turn(around: boolean): Turn;
 }
 
 interface Finger {
@@ -25,7 +28,7 @@ export function wheelFactor(event: Pick<WheelEvent, "deltaY" | "deltaMode" | "ct
 
 /**
  * Mouse, pen and touch on `element`: one finger or the left button turns, two fingers, the other
- * buttons or Shift move, the wheel and pinching dolly towards what is under them, a double click
+ * buttons or Shift move, Alt looks around, the wheel and pinching dolly towards what is under them, a double click
  * resets. Events that the browser joined into one frame are seen as they happen. Returns its end.
  */
 export function controlCamera(element: HTMLElement, port: CameraPort): () => void {
@@ -59,7 +62,7 @@ export function controlCamera(element: HTMLElement, port: CameraPort): () => voi
     const dy = event.clientY - finger.y;
     const pans = event.shiftKey || (event.buttons & 6) !== 0;
     if (pans) return panned(orbit, dx, dy, element.clientHeight);
-    return dragged(orbit, dx, dy, turnPerPixel(element));
+    return port.turn(event.altKey)(orbit, dx, dy, turnPerPixel(element));
   };
 
   const moved = (event: PointerEvent): void => {

@@ -2,6 +2,7 @@ import { describe, expect, it } from "vitest";
 import { frameOf, type Orbit } from "./camera";
 import { wheelFactor } from "./camera_control";
 import { meaningOf } from "./keyboard";
+import { rolled } from "./turning";
 
 const orbit: Orbit = {
   target: [0, 0, 0],
@@ -39,6 +40,15 @@ describe("keys", () => {
     expect(panned.target[2]).toBeLessThan(0);
   });
 
+  it("turn as hands do", () => {
+    const meaning = meaningOf(
+      { key: "ArrowUp", code: "", shiftKey: false, ctrlKey: false, metaKey: false, altKey: false },
+      rolled,
+    );
+    if (!meaning || !("move" in meaning)) throw new Error("the arrow does not move the camera");
+    expect(meaning.move(orbit)).toEqual(rolled(orbit, 0, -Math.PI / 36, 1));
+  });
+
   it("dolly, look along axes and change projection", () => {
     expect(moved("+").distance).toBeLessThan(5);
     expect(moved("-").distance).toBeGreaterThan(5);
@@ -55,7 +65,9 @@ describe("keys", () => {
     expect(press("y", { metaKey: true })).toEqual({ do: "redo" });
     expect(press("r", { ctrlKey: true })).toBeUndefined();
     expect(press("ArrowLeft", { altKey: true })).toBeUndefined();
-    expect(press("q")).toBeUndefined();
+    expect(press("H")).toEqual({ do: "hud" });
+    expect(press("h", { ctrlKey: true })).toBeUndefined();
+    for (const key of ["q", "w", "a", "s", "d", "e"]) expect(press(key)).toBeUndefined();
   });
 });
 

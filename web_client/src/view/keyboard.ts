@@ -1,7 +1,18 @@
 import { alongAxis, dollied, dragged, type Orbit, panned, withOtherProjection } from "./camera";
+import type { Turn } from "./turning";
 
 /** What a key does besides moving the camera. */
-export type KeyAction = "reset" | "fullscreen" | "help" | "undo" | "redo";
+export type KeyAction =
+  | "reset"
+  | "fullscreen"
+  | "help"
+  | "undo"
+  | "redo"
+  | "save"
+  | "trackball"
+  | "box"
+  | "legend"
+  | "hud";
 
 export type KeyMeaning = { readonly move: (orbit: Orbit) => Orbit } | { readonly do: KeyAction };
 
@@ -23,8 +34,20 @@ const kAxisLetters: Readonly<Record<string, 0 | 1 | 2>> = { x: 0, y: 1, z: 2 };
 /** By place: with Shift a digit key types something else. */
 const kAxisDigits: Readonly<Record<string, 0 | 1 | 2>> = { Digit1: 0, Digit2: 1, Digit3: 2 };
 
-/** Undefined where the key means nothing here. */
-export function meaningOf(key: Key): KeyMeaning | undefined {
+const kLetters: Readonly<Record<string, KeyAction>> = {
+  r: "reset",
+  "0": "reset",
+  f: "fullscreen",
+  c: "save",
+  t: "trackball",
+  b: "box",
+  l: "legend",
+  h: "hud",
+  "?": "help",
+};
+
+/** Undefined where the key means nothing here; `turn` is what arrows do. */
+export function meaningOf(key: Key, turn: Turn = dragged): KeyMeaning | undefined {
   if (key.altKey) return undefined;
   if (key.ctrlKey || key.metaKey) {
     const letter = key.key.toLowerCase();
@@ -36,7 +59,7 @@ export function meaningOf(key: Key): KeyMeaning | undefined {
     const [x, y] = arrow;
     return key.shiftKey
       ? { move: (o) => panned(o, x * kPan, y * kPan, 1) }
-      : { move: (o) => dragged(o, x * kTurn, y * kTurn, 1) };
+      : { move: (o) => turn(o, x * kTurn, y * kTurn, 1) };
   }
   const axis = kAxisDigits[key.code] ?? kAxisLetters[key.key.toLowerCase()];
   if (axis !== undefined) return { move: (o) => alongAxis(o, axis, key.shiftKey) };
@@ -47,21 +70,12 @@ export function meaningOf(key: Key): KeyMeaning | undefined {
     case "-":
     case "_":
       return { move: (o) => dollied(o, kDolly, { x: 0, y: 0 }, 1) };
-    case "r":
-    case "R":
-    case "0":
-      return { do: "reset" };
     case "p":
     case "P":
       return { move: withOtherProjection };
-    case "f":
-    case "F":
-      return { do: "fullscreen" };
-    case "?":
-      return { do: "help" };
-    default:
-      return undefined;
   }
+  const action = kLetters[key.key.toLowerCase()];
+  return action && { do: action };
 }
 
 /** True where a key belongs to the element under the cursor and not to the picture. */

@@ -1,0 +1,152 @@
+import { mkdirSync } from "node:fs";
+import { join } from "node:path";
+import type { Browser } from "playwright-core";
+import { afterAll, beforeAll, describe, expect, it } from "vitest";
+import { violations } from "./support/accessibility";
+import { Client, launch } from "./support/client";
+import { hashOf } from "./support/pixels";
+import { Server, screenshotFolder } from "./support/server";
+
+let server: Server;
+let browser: Browser;
+let client: Client;
+
+beforeAll(async () => {
+  mkdirSync(screenshotFolder(), { recursive: true });
+  server = await Server.start();
+  browser = await launch();
+  client = await Client.open(browser, server.url, { viewport: { width: 640, height: 1400 } });
+  const toggle = client.page.locator(".sheet-toggle");
+  if (await toggle.isVisible()) await client.after(() => toggle.click());
+});
+
+afterAll(async () => {
+  await browser?.close();
+  await server?.stop();
+});
+
+const points = () => client.page.locator(".chart-point");
+const measure = () => client.page.getByRole("button", { name: "Measure", exact: true });
+const status = () =>
+  client.page.locator('section[aria-labelledby="measure-heading"] [role=status]');
+const kMeasuredMs = 90_000;
+
+async function photograph(name: string, what: string): Promise<void> {
+  await client.page.locator(what).scrollIntoViewIfNeeded();
+  await client.page.screenshot({ path: join(screenshotFolder(), `${name}.png`) });
+}
+
+describe("error against time", () => {
+  it("is measured on request, with points as the ways are done", async () => {
+    await measure().click();
+    await points().first().waitFor({ timeout: kMeasuredMs });
+    await measure().waitFor({ timeout: kMeasuredMs });
+    expect(await status().textContent()).toBe("");
+    // Volume of a mesh: six integrators by walk and by projection.
+    expect(await points().count()).toBe(12);
+    expect(await client.page.locator(".chart-point[data-front]").count()).toBeGreaterThan(0);
+    expect(await violations(client)).toEqual([]);
+  });
+
+  it("draws by the point that is clicked, and automatically again", async () => {
+    const before = hashOf(await client.pixels());
+    const rough = client.page.getByRole("button", { name: /^Average · projection: / });
+    const box = await rough.boundingBox();
+    if (!box) throw new Error("the point has no box");
+    const { x, y } = { x: box.x + box.width / 2, y: box.y + box.height / 2 };
+    await client.after(() => client.page.mouse.click(x, y));
+    expect(await rough.getAttribute("aria-pressed")).toBe("true");
+    expect(hashOf(await client.pixels())).not.toBe(before);
+    expect(await status().textContent()).toBe("");
+    const automatic = client.page.getByRole("button", { name: "Automatic", exact: true });
+    await client.after(() => automatic.click());
+    expect(hashOf(await client.pixels())).toBe(before);
+  });
+
+  it("is used by keys alone", async () => {
+    await client.page.locator('.chart-point[tabindex="0"]').focus();
+    await client.page.keyboard.press("ArrowRight");
+    await client.after(() => client.page.keyboard.press("Enter"));
+    await photograph("accuracy-640", ".chart-key");
+    const pressed = client.page.locator('.chart-point[aria-pressed="true"]');
+    expect(await pressed.count()).toBe(1);
+    expect(await pressed.evaluate((e) => e === document.activeElement)).toBe(true);
+  });
+
+  it("is a table with the same rows and buttons", async () => {
+    await client.page.getByText("In numbers").click();
+    expect(await client.page.locator(".accuracy-table tbody tr").count()).toBe(12);
+    const row = client.page.locator(".accuracy-table button", { hasText: "Exact · walk" });
+    await client.after(() => row.click());
+    expect(await row.getAttribute("aria-pressed")).toBe("true");
+    expect(await violations(client)).toEqual([]);
+    await photograph("accuracy-table-640", ".accuracy-table");
+  });
+
+  it.each([
+    ["1280", { width: 1280, height: 800 }],
+    ["390", { width: 390, height: 844 }],
+  ])("fits %s pixels", async (name, size) => {
+    await client.after(() => client.page.setViewportSize(size));
+    await photograph(`accuracy-${name}`, ".accuracy-table");
+    expect(await violations(client)).toEqual([]);
+    const body = client.page.locator(".panel-body");
+    expect(await body.evaluate((e) => e.scrollWidth - e.clientWidth)).toBe(0);
+    await client.after(() => client.page.setViewportSize({ width: 640, height: 1400 }));
+  });
+
+  it("says that it is of an earlier view, once the camera turned", async () => {
+    await client.after(() => client.drag(80, 20));
+    expect(await status().textContent()).toMatch(/as it was when/);
+  });
+
+  it("stops on request and when the view changes, and says why", async () => {
+    await measure().click();
+    await client.page.getByRole("button", { name: "Stop", exact: true }).click();
+    await measure().waitFor();
+    expect(await status().textContent()).toMatch(/^Stopped: stopped by the client/);
+    await measure().click();
+    await client.page.getByRole("button", { name: "Stop", exact: true }).waitFor();
+    await client.after(() => client.drag(-80, -20));
+    await measure().waitFor();
+    expect(await status().textContent()).toMatch(/^Stopped: the view changed/);
+  });
+});
+
+describe("how it is drawn", () => {
+  const plan = () => client.page.locator(".plan");
+
+  it("lists effects with their reasons, for the newest picture", async () => {
+    await client.page.getByText("How it is drawn").click();
+    await plan().waitFor();
+    const names = await client.page.locator(".effect-name").allTextContents();
+    expect(new Set(names).size).toBe(names.length);
+    expect(names.length).toBeGreaterThan(3);
+    const reasons = await client.page.locator(".effect-reason").allTextContents();
+    expect(reasons.every((r) => r.length > 5)).toBe(true);
+    expect(await plan().textContent()).toContain("exact");
+    expect(await violations(client)).toEqual([]);
+    await photograph("explain-640", ".plan-times");
+  });
+
+  it("follows the picture", async () => {
+    const newest = async (): Promise<void> => {
+      const seq = await client.fact("inputSeq");
+      await client.page.waitForSelector(`.plan[data-input-seq="${seq}"]`);
+    };
+    await newest();
+    await client.after(() => client.drag(30, 0));
+    await newest();
+    const before = await plan().textContent();
+    const radio = client.page.getByRole("radio", { name: "Surface", exact: true });
+    await client.after(() => radio.check({ force: true }));
+    await newest();
+    expect(await plan().textContent()).not.toBe(before);
+  });
+
+  it("is asked for only while it is open", async () => {
+    await client.page.getByText("How it is drawn").click();
+    expect(await plan().count()).toBe(0);
+    expect(client.complaints).toEqual([]);
+  });
+});

@@ -1,0 +1,85 @@
+import { create, equals } from "@bufbuild/protobuf";
+import { Integrator, MeshEvaluator, type Scene, SceneSchema } from "../net/gen/volcast/v1/scene_pb";
+import type { AccuracyReport, AccuracyRow } from "../net/gen/volcast/v1/session_pb";
+import type { Orbit } from "../view/camera";
+import { changeLayer } from "./actions";
+import type { AppState, Edit, ViewportSize } from "./app_state";
+
+/** A view whose accuracy and cost are or were measured. */
+interface Subject {
+  readonly edit: Edit;
+  readonly orbit: Orbit | undefined;
+  readonly viewport: ViewportSize | undefined;
+}
+
+/** What ways to draw a view are worth; the newest measurement, running or ended. */
+export interface Measured {
+  readonly subject: Subject;
+  readonly rows: readonly AccuracyRow[];
+  /** 0 to 1. */
+  readonly progress: number;
+  readonly running: boolean;
+  /** Why it ended before all was measured; empty where it did not. */
+  readonly stopped: string;
+}
+
+const subjectOf = (state: AppState): Subject => ({
+  edit: state.edit.value.present,
+  orbit: state.orbit.value,
+  viewport: state.viewport.value,
+});
+
+/** Without what is measured: how a layer is drawn, and the wish that chooses it. */
+function bare(scene: Scene): Scene {
+  const way = { integrator: Integrator.AUTO, evaluator: MeshEvaluator.AUTO };
+  const layers = scene.layers.map((layer) => ({ ...layer, ...way }));
+  return create(SceneSchema, { ...scene, layers, accuracy: undefined });
+}
+
+function sameScene(a: Scene | undefined, b: Scene | undefined): boolean {
+  return a === b || (!!a && !!b && equals(SceneSchema, bare(a), bare(b)));
+}
+
+/** True while the picture is of the view that was measured, in whatever way it is drawn. */
+export function isOfThisView(state: AppState, { subject }: Measured): boolean {
+  const now = subjectOf(state);
+  const { map, density, smooth, second, scene } = now.edit;
+  const then = subject.edit;
+  return (
+    now.orbit === subject.orbit &&
+    now.viewport === subject.viewport &&
+    map === then.map &&
+    density === then.density &&
+    smooth === then.smooth &&
+    second === then.second &&
+    sameScene(scene, then.scene)
+  );
+}
+
+export function measuringBegan(state: AppState): void {
+  const subject = subjectOf(state);
+  state.measured.value = { subject, rows: [], progress: 0, running: true, stopped: "" };
+}
+
+export function measuringReported(state: AppState, report: AccuracyReport): void {
+  const measured = state.measured.value;
+  if (!measured?.running) return;
+  const { rows, progress, done, stopped } = report;
+  state.measured.value = { ...measured, rows, progress, running: !done, stopped };
+}
+
+/** Ends a measurement of which nothing more will be heard. */
+export function measuringEnded(state: AppState, why: string): void {
+  const measured = state.measured.value;
+  if (measured?.running) state.measured.value = { ...measured, running: false, stopped: why };
+}
+
+/** Draws the first layer in the way that a row measured. */
+export function drawBy(state: AppState, row: AccuracyRow): void {
+  changeLayer(state, { integrator: row.integrator, evaluator: row.evaluator });
+}
+
+/** Leaves the choice to the server again. */
+export function drawAutomatically(state: AppState): void {
+  changeLayer(state, { integrator: Integrator.AUTO, evaluator: MeshEvaluator.AUTO });
+}

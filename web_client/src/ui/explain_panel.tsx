@@ -1,0 +1,35 @@
+import { useSignal, useSignalEffect } from "@preact/signals";
+import type { AppState } from "../state/app_state";
+import { lazy } from "./lazy";
+import type { AppPort } from "./port";
+
+interface Props {
+  readonly state: AppState;
+  readonly port: AppPort;
+}
+
+const PlanList = lazy(async () => (await import("./plan_list")).PlanList);
+
+/** How the picture was drawn and why so; asked again for every picture while it is open. */
+export function ExplainPanel({ state, port }: Props) {
+  const open = useSignal(false);
+  useSignalEffect(() => {
+    if (open.value && state.picture.value) port.explain();
+  });
+  if (!state.layer.value) return null;
+  return (
+    <section class="section">
+      <details
+        class="explain"
+        onToggle={(e) => {
+          open.value = e.currentTarget.open;
+        }}
+      >
+        <summary>
+          <h2>How it is drawn</h2>
+        </summary>
+        {open.value && <PlanList state={state} />}
+      </details>
+    </section>
+  );
+}
