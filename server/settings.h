@@ -25,6 +25,7 @@ struct ServeSettings {
     std::size_t maxPeople = 256;      ///< In one view.
     std::string linkKeyFile;          ///< Empty: a key in stateFolder, or one of this run.
     std::string stateFolder;          ///< Empty: views end with the server.
+    bool allowFaults = false;         ///< Clients may let workers and imports fail.
     std::string logLevel = "info";
     std::string serverName;  ///< Told to clients, with the version.
     std::string sourceUrl;   ///< Told to clients: the AGPL asks for it.

@@ -13,6 +13,8 @@
 #include "server/commands/cache_folder.h"
 #include "server/session/views.h"
 #include "server/settings.h"
+#include "server/video/video_patches.h"
+#include "server/workers/gpu_given_up.h"
 #include "server/workers/isolating_service.h"
 
 namespace volcast::commands {
@@ -66,6 +68,7 @@ Result<KeptState> openState(const ServeSettings& settings) {
 int serve(ServeSettings settings) {
     startLog(settings.logLevel);
     if (settings.render.cacheFolder.empty()) settings.render.cacheFolder = userCacheFolder();
+    workers::forgetGpuGivenUp(settings.render.cacheFolder);  // It gets another chance.
     if (settings.listen.clientFolder.empty()) settings.listen.clientFolder = defaultClientFolder();
     session::ViewRouter router;
     auto render = workers::createIsolatingService(settings.render, router.events());
@@ -74,8 +77,16 @@ int serve(ServeSettings settings) {
     desc.folder = settings.dataFolder;
     desc.imports = settings.imports;
     desc.importsAtOnce = settings.importsAtOnce;
+    workers::FaultSwitch faults;
+    faults.connect(**render);
+    if (settings.allowFaults) {
+        spdlog::warn(
+            "event=faults_allowed message=\"any client may let workers and imports fail\"");
+        desc.imports.fault = [&faults] { return faults.takeForImport(); };
+    }
     auto catalogue = session::Catalogue::create(std::move(desc), **render);
     if (!catalogue) return complain(catalogue.error());
+    (void)video::videoPatches();  // Encoders are tried now, not when the first client waits.
     auto encoders = std::make_unique<session::EncodePool>(settings.encodeThreads);
     auto kept = openState(settings);
     if (!kept) return complain(kept.error());
@@ -94,7 +105,8 @@ int serve(ServeSettings settings) {
                            .views = views,
                            .limits = settings.limits,
                            .server = settings.serverName,
-                           .sourceUrl = settings.sourceUrl};
+                           .sourceUrl = settings.sourceUrl,
+                           .faults = settings.allowFaults ? &faults : nullptr};
     auto server = net::Server::create(settings.listen, shared);
     if (!server) return complain(server.error());
     const workers::RenderStatus status = (*render)->status();
@@ -104,10 +116,10 @@ int serve(ServeSettings settings) {
     std::fflush(stdout);
     (*server)->run();
     spdlog::info("event=stopped");
+    views.clear();  // Saved, where there is a folder for them.
     // An import that runs can take minutes; its process ends with this one.
     if ((*catalogue)->importing()) std::_Exit(0);
     // News of other threads end before the sockets' context does.
-    views.clear();
     encoders.reset();
     catalogue->reset();
     render->reset();
@@ -163,7 +175,8 @@ void addLimits(CLI::App& command, ServeSettings& settings) {
         .add_option_function<std::uint64_t>(
             "--volume-budget",
             [&settings](std::uint64_t mib) { settings.render.volumeBudgetBytes = mib << 20U; },
-            "MiB of GPU memory: a channel of voxels that takes more is drawn from bricks "
+            "MiB of GPU memory for all voxels of a scene: those that take more are drawn from "
+            "bricks "
             "(default 1024)")
         ->check(CLI::Range(workers::kLeastVolumeBudgetMib, workers::kMostVolumeBudgetMib));
 }
@@ -174,6 +187,22 @@ void addState(CLI::App& command, ServeSettings& settings) {
     command.add_option("--link-key-file", settings.linkKeyFile,
                        "Key that share links are signed with, made where there is none; none: "
                        "link.key in --state-dir, else one of this run");
+}
+
+void addFaults(CLI::App& command, ServeSettings& settings) {
+    CLI::Option* allowed = command.add_flag(
+        "--allow-faults", settings.allowFaults,
+        "FOR TESTS ALONE: lets every client crash and hang workers and imports (InjectFault)");
+    command
+        .add_option_function<std::string>(
+            "--worker-fault",
+            [&settings](const std::string& text) {
+                const auto fault = worker::parseFault(text);
+                if (!fault) throw CLI::ValidationError{"--worker-fault", fault.error().message};
+                settings.render.fault = *fault;
+            },
+            "FOR TESTS ALONE: each worker gets this --fault; see volcast-worker --list-faults")
+        ->needs(allowed);
 }
 
 }  // namespace
@@ -210,6 +239,7 @@ void addServeCommand(CLI::App& app, int& exitCode) {
         ->capture_default_str();
     addState(command, *settings);
     addLimits(command, *settings);
+    addFaults(command, *settings);
     command.callback([settings, &exitCode] { exitCode = serve(*settings); });
 }
 

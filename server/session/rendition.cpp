@@ -27,7 +27,7 @@ void Rendition::want() {
 }
 
 void Rendition::asked(std::uint64_t tag, const DrawState& state, TimePoint now) {
-    Asked& asked = asked_.emplace_back(Asked{.tag = tag, .state = state, .at = now});
+    Asked& asked = asked_.emplace_back(Asked{.tag = tag, .state = state, .key = key_, .at = now});
     if (refines_) asked.state.inputAt = now;
     wanted_ = refines_ = false;
     drawing_ = true;
@@ -41,6 +41,7 @@ bool Rendition::rendered(const workers::RenderedFrame& frame, std::uint64_t numb
         if (!frame.ready && !wanted_) wanted_ = refines_ = true;
     }
     picture_ = std::make_shared<const ViewPicture>(ViewPicture{.number = number,
+                                                               .key = asked->key,
                                                                .pixels = frame.picture,
                                                                .scene = asked->state.scene,
                                                                .header = headerOf(frame, *asked)});
@@ -92,15 +93,71 @@ std::shared_ptr<Encoding> Rendition::encoding(const Format& format) {
         std::make_shared<Encoding>(Encoding{.picture = picture_, .format = format}));
 }
 
+std::shared_ptr<Encoding> Rendition::videoEncoding(const Format& format, InVideo& viewer) {
+    const auto begin = [&](std::shared_ptr<VideoGroup> group, bool keyframe) {
+        viewer.group = std::move(group);
+        const std::uint64_t after = std::exchange(viewer.group->last, picture_->number);
+        viewer.last = picture_->number;
+        return encodings_.emplace_back(std::make_shared<Encoding>(Encoding{.picture = picture_,
+                                                                           .format = format,
+                                                                           .group = viewer.group,
+                                                                           .after = after,
+                                                                           .keyframe = keyframe}));
+    };
+    const bool goesOn = viewer.group && viewer.group->format == format;
+    for (const auto& one : encodings_) {
+        if (!one->group || one->format != format) continue;
+        const bool inStep = goesOn && one->group == viewer.group && one->after == viewer.last;
+        if (!inStep && !one->keyframe) continue;
+        viewer = {.group = one->group, .last = picture_->number};
+        return one;
+    }
+    if (goesOn && viewer.group->last == viewer.last) return begin(viewer.group, false);
+    viewer.alone = viewer.alone || goesOn;
+    std::erase_if(groups_, [](const auto& group) { return group.expired(); });
+    if (!viewer.alone) {
+        for (const auto& weak : groups_) {
+            auto group = weak.lock();
+            if (!group || group->format != format || group->last >= picture_->number) continue;
+            return begin(std::move(group), true);
+        }
+    }
+    auto group = std::make_shared<VideoGroup>(format);
+    if (!viewer.alone) groups_.push_back(group);
+    return begin(std::move(group), true);
+}
+
+namespace {
+
+Result<std::vector<std::byte>> compress(const video::ImageView& image, const Format& format) {
+    switch (format.codec) {
+        case v1::CODEC_PNG: return video::encodePng(image);
+        case v1::CODEC_WEBP: return video::encodeWebp(image);
+        default: return video::encodeJpeg(image, format.quality);
+    }
+}
+
+}  // namespace
+
 Encoding encode(const Encoding& encoding) {
-    Encoding done{
-        .picture = encoding.picture, .format = encoding.format, .begun = true, .done = true};
+    Encoding done = encoding;
+    done.begun = done.done = true;
     const auto start = Clock::now();
     const workers::Picture& pixels = *encoding.picture->pixels;
     const video::ImageView image{.size = pixels.size, .rgba = pixels.rgba8};
-    auto bytes = encoding.format.codec == v1::CODEC_PNG
-                     ? video::encodePng(image)
-                     : video::encodeJpeg(image, encoding.format.quality);
+    Result<std::vector<std::byte>> bytes = Error{};
+    if (encoding.group) {
+        auto picture = encoding.group->encode(image, encoding.picture->number, encoding.keyframe);
+        if (picture) done.keyframe = picture->keyframe;
+        if (picture) {
+            bytes = std::move(picture->bytes);
+        } else {
+            bytes = std::move(picture).error();
+        }
+    } else {
+        bytes = compress(image, encoding.format);
+        if (isLossless(encoding.format.codec)) done.pixelHash = video::pixelHash(image);
+    }
     done.at = Clock::now();
     done.encodeMs = msBetween(start, done.at);
     if (bytes) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "server/session/frame_flow.h"
+#include "server/session/video_group.h"
 #include "server/workers/render_service.h"
 #include "volcast/v1/frame.pb.h"
 
@@ -30,27 +31,25 @@ struct DrawState {
 /// A drawn picture; its header is complete but for what depends on codec and viewer.
 struct ViewPicture {
     std::uint64_t number = 0;  ///< Unique in its view, growing.
+    RenditionKey key;          ///< It was drawn for.
     std::shared_ptr<const workers::Picture> pixels;
     std::shared_ptr<const scene::Scene> scene;
     v1::FrameHeader header;
-};
-
-/// How a picture is compressed.
-struct Format {
-    v1::Codec codec = v1::CODEC_JPEG;
-    int quality = 90;  ///< Of JPEG, 1 to 100.
-    friend bool operator==(const Format&, const Format&) = default;
 };
 
 /// One picture in one format, made once for all viewers that want it.
 struct Encoding {
     std::shared_ptr<const ViewPicture> picture;
     Format format;
+    std::shared_ptr<VideoGroup> group = {};  ///< Of a video picture.
+    std::uint64_t after = 0;                 ///< The picture of the group before this one.
+    bool keyframe = false;                   ///< Asked for, and when done: what it is.
     bool begun = false;
     bool done = false;
     // Below: set when done, and constant from then on.
     std::shared_ptr<const std::vector<std::byte>> bytes = {};  ///< Null where `error` says why.
     std::optional<Error> error = {};
+    std::uint32_t pixelHash = 0;  ///< Of a lossless picture: XXH32.
     double encodeMs = 0;
     TimePoint at{};
 };
@@ -87,6 +86,17 @@ public:
     /// The newest picture in `format`; made when first asked for.
     std::shared_ptr<Encoding> encoding(const Format& format);
 
+    /// What a viewer keeps of the video that it is sent.
+    struct InVideo {
+        std::shared_ptr<VideoGroup> group = {};
+        std::uint64_t last = 0;  ///< Number of the picture it was sent last.
+        bool alone = false;      ///< It could not keep step: its group is its own.
+    };
+    /// The newest picture as the next of a video in `format`. Viewers that were sent the same
+    /// pictures share it; who comes new joins them at a keyframe; who missed a picture gets a group
+    /// of its own, so that it costs the others nothing.
+    std::shared_ptr<Encoding> videoEncoding(const Format& format, InVideo& viewer);
+
 private:
     /// Requests whose answer may still come. When so many were overtaken while one is drawn, newer
     /// states wait here instead: forgetting the one that is drawn would throw its picture away.
@@ -95,6 +105,7 @@ private:
     struct Asked {
         std::uint64_t tag = 0;
         DrawState state;
+        RenditionKey key;
         TimePoint at{};
     };
     static v1::FrameHeader headerOf(const workers::RenderedFrame& frame, const Asked& asked);
@@ -106,6 +117,7 @@ private:
     std::deque<Asked> asked_;  ///< The newest last; older ones may still be drawn.
     std::shared_ptr<const ViewPicture> picture_;
     std::vector<std::shared_ptr<Encoding>> encodings_;  ///< Of picture_.
+    std::vector<std::weak_ptr<VideoGroup>> groups_;     ///< That new viewers may join.
 };
 
 /// Compresses `encoding`'s picture as its format says and returns the encoding done; blocks.

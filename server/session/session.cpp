@@ -82,6 +82,9 @@ void Session::receive(std::span<const std::byte> bytes, Form form, TimePoint now
             return measureAccuracy(message->measure_accuracy());
         case v1::ClientMessage::kPick: return pick(message->pick());
         case v1::ClientMessage::kDescribeShader: return describeShader(message->describe_shader());
+        case v1::ClientMessage::kInjectFault: return injectFault(message->inject_fault());
+        case v1::ClientMessage::kSetPins: return setPins(message->set_pins(), now);
+        case v1::ClientMessage::kPatchDecoded: return patchDecoded(message->patch_decoded());
         case v1::ClientMessage::kPing: {
             v1::ServerMessage reply;
             reply.mutable_pong()->set_token(message->ping().token());
@@ -105,13 +108,8 @@ void Session::hello(const v1::Hello& message) {
                           {}, "hello.major"));
         return end({kPolicyViolation, "another protocol version"});
     }
-    if (!message.codecs().empty()) {
-        codecs_.jpeg = std::ranges::count(message.codecs(), v1::CODEC_JPEG) != 0;
-        codecs_.png = std::ranges::count(message.codecs(), v1::CODEC_PNG) != 0;
-    }
-    if (!codecs_.jpeg && !codecs_.png) {
-        send(errorMessage(v1::ERROR_CODE_UNSUPPORTED, "this server sends JPEG and PNG only", {},
-                          "hello.codecs"));
+    if (const auto taken = takeCodecs(message); !taken) {
+        send(errorMessage(taken.error(), {}));
         return end({kPolicyViolation, "no codec in common"});
     }
     if (!identify(message)) return;
@@ -163,7 +161,7 @@ void Session::welcome() {
     welcome.set_minor(protocol::kMinor);
     welcome.set_server(shared_.server);
     welcome.set_source_url(shared_.sourceUrl);
-    for (const auto codec : {v1::CODEC_JPEG, v1::CODEC_PNG}) welcome.add_codecs(codec);
+    for (const v1::Codec codec : codecsHere()) welcome.add_codecs(codec);
     for (const scene::RayModelRow& row : scene::rayModels()) {
         if (row.onMeshes) welcome.add_mesh_models(worker::toMessage(row.model));
         if (row.onVolumes) welcome.add_volume_models(worker::toMessage(row.model));
@@ -192,6 +190,7 @@ std::optional<Outgoing> Session::next(TimePoint now) {
         return out;
     }
     if (closing_) return std::nullopt;
+    if (auto patch = nextPatch()) return patch;
     for (const auto& [number, seat] : seats_) {
         const auto mail = seat.view->takeMail(seat.viewer);
         if (!mail) continue;

@@ -93,10 +93,19 @@ private:
     void handOver(const v1::HandOver& message);
     void undo(const v1::Undo& message, TimePoint now);
 
+    // session_pacing.cpp
+    static std::vector<v1::Codec> codecsHere();
+    /// Errors: kUnsupported where nothing that every server sends is among them.
+    Result<void> takeCodecs(const v1::Hello& message);
+    std::optional<Outgoing> nextPatch();
+    void patchDecoded(const v1::PatchDecoded& message);
+    void setPins(const v1::SetPins& message, TimePoint now);
+
     void explain(const v1::Explain& message);
     void measureAccuracy(const v1::MeasureAccuracy& message);
     void pick(const v1::Pick& message);
     void describeShader(const v1::DescribeShader& message);
+    void injectFault(const v1::InjectFault& message);
 
     void datasetChanged(const v1::DatasetInfo& info);
     void send(const v1::ServerMessage& message);
@@ -114,7 +123,9 @@ private:
     PersonBook::Arrival who_;  ///< Once greeted.
     bool resumed_ = false;
     Form form_ = Form::kBinary;
-    Viewer::Codecs codecs_;
+    ClientCodecs codecs_;
+    std::vector<v1::Codec> untried_;       ///< The client has not answered their colour patches.
+    std::deque<v1::Codec> patches_;        ///< Not sent yet.
     std::map<std::uint32_t, Seat> seats_;  ///< By the client's numbers.
     std::uint32_t lastServed_ = 0;         ///< View whose frame was sent last; views take turns.
     std::deque<v1::ServerMessage> waiting_;

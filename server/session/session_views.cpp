@@ -87,7 +87,8 @@ void Session::ack(const v1::Ack& message, TimePoint now) {
     seat.view->acked(seat.viewer,
                      {.sequence = message.sequence(),
                       .hold = std::chrono::microseconds{message.hold_us()},
-                      .queued = message.queue()},
+                      .queued = message.queue(),
+                      .keyframe = message.keyframe()},
                      now);
 }
 

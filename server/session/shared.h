@@ -8,6 +8,7 @@
 #include "server/session/catalogue.h"
 #include "server/session/encode_pool.h"
 #include "server/session/view_router.h"
+#include "server/workers/fault_switch.h"
 #include "server/workers/render_service.h"
 
 namespace volcast::session {
@@ -40,8 +41,9 @@ struct Shared {
     Catalogue& catalogue;
     Views& views;
     SessionLimits limits;
-    std::string server;     ///< Name and version.
-    std::string sourceUrl;  ///< Where the source of this server is.
+    std::string server;                      ///< Name and version.
+    std::string sourceUrl;                   ///< Where the source of this server is.
+    workers::FaultSwitch* faults = nullptr;  ///< Null: nobody may inject faults.
 };
 
 }  // namespace volcast::session

@@ -127,6 +127,19 @@ void SharedView::undo(ViewerId id, const v1::Undo& message, TimePoint now) {
     apply(*change, now, 0);
 }
 
+void SharedView::setPins(ViewerId id, const PacePins& pins, v1::Codec codec, TimePoint now) {
+    const Turn turn{*this};
+    Viewer* viewer = find(id);
+    if (viewer == nullptr) return;
+    viewer->setPins(pins, codec);
+    advance(*viewer, now);
+}
+
+void SharedView::setCodecs(ViewerId id, const ClientCodecs& codecs) {
+    const Turn turn{*this};
+    if (Viewer* viewer = find(id)) viewer->setCodecs(codecs);
+}
+
 void SharedView::acked(ViewerId id, const FrameAck& ack, TimePoint now) {
     const Turn turn{*this};
     Viewer* viewer = find(id);
@@ -161,6 +174,7 @@ void SharedView::apply(SceneChange change, TimePoint now, ViewerId author, bool 
         wake(*viewer);
     }
     changed();
+    for (const auto& [id, viewer] : viewers_) place(*viewer);
     for (const auto& rendition : renditions_) rendition->want();
     advance(now);
 }

@@ -72,6 +72,10 @@ public:
     void handOver(ViewerId viewer, std::uint32_t person);
     /// Empty where the viewer may share the view, else why not.
     [[nodiscard]] std::string whyNotSharing(ViewerId viewer) const;
+    /// What pacing must not change of this viewer's frames; `codec` of interactive pictures.
+    void setPins(ViewerId viewer, const PacePins& pins, v1::Codec codec, TimePoint now);
+    /// More, or less, is known of what its client can show.
+    void setCodecs(ViewerId viewer, const ClientCodecs& codecs);
     std::optional<v1::ServerMessage> takeMail(ViewerId viewer);
     std::optional<ReadyFrame> takeFrame(ViewerId viewer, TimePoint now);
     void tick(ViewerId viewer, TimePoint now);

@@ -16,11 +16,11 @@ void SharedView::place(Viewer& viewer) {
     const auto others = std::ranges::count_if(
         viewers_, [&viewer](const auto& one) { return one.second->rendition == viewer.rendition; });
     if (found != renditions_.end()) {
-        viewer.rendition = *found;
+        viewer.moveTo(*found);
     } else if (viewer.rendition && others == 1) {
         viewer.rendition->change(key);  // Alone: what is being drawn for it is shown meanwhile.
     } else {
-        viewer.rendition = renditions_.emplace_back(std::make_shared<Rendition>(key));
+        viewer.moveTo(renditions_.emplace_back(std::make_shared<Rendition>(key)));
     }
     dropUnused();
 }
@@ -48,6 +48,8 @@ void SharedView::advance(TimePoint now) {
 }
 
 void SharedView::advance(Viewer& viewer, TimePoint now) {
+    viewer.rest(now);
+    place(viewer);
     encodeFor(viewer, now);
     if (mayDraw(viewer.rendition) && viewer.mayDraw(now)) draw(viewer.rendition, now);
 }
@@ -116,7 +118,13 @@ void SharedView::failed(std::uint64_t tag, const Error& error) {
     const std::shared_ptr<Rendition> refused = *found;
     Error told = error;
     if (told.field.starts_with("layers[")) told.field = "scene." + told.field;
-    const bool reverted = scene_.revert();
+    // Not where the worker alone is to blame: the scene is drawn once there is one again.
+    const bool sceneIsToBlame = !error.field.empty() || error.code == ErrorCode::kOutOfGpuMemory;
+    const auto reverted = sceneIsToBlame ? scene_.revert() : std::nullopt;
+    if (reverted) {
+        told.message = "the scene of input " + std::to_string(*reverted) +
+                       " is refused, the last one that was drawn stays: " + told.message;
+    }
     for (const auto& [id, viewer] : viewers_) {
         if (viewer->rendition != refused) continue;
         if (!reverted) {

@@ -27,7 +27,8 @@ class TestClient {
 public:
     enum class Form { kBinary, kJson };
 
-    /// Connects and says hello; check ok().
+    /// Connects and says hello; check ok(). Without `codecs` in `hello` it shows what every client
+    /// does.
     explicit TestClient(std::uint16_t port, Form form = Form::kBinary,
                         const WsOptions& options = {}, v1::Hello hello = {});
 

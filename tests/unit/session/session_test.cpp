@@ -283,5 +283,58 @@ TEST_F(SessionTest, WithoutAHelloTheConnectionEnds) {
     EXPECT_EQ(session->closing()->code, 1008);
 }
 
+TEST_F(SessionTest, AClientWithVideoIsSentPatchesAndItsAnswersAreChecked) {
+    say(R"({"hello":{"major":1,"codecs":["CODEC_JPEG","CODEC_PNG","CODEC_VP9"]}})");
+    const std::string welcome = waitFor("welcome");
+    EXPECT_NE(welcome.find("CODEC_WEBP"), std::string::npos) << welcome;
+    const std::string patch = waitFor(R"("patch":true)");
+    EXPECT_NE(patch.find(R"("codec":"CODEC_VP9")"), std::string::npos) << patch;
+    EXPECT_NE(patch.find(R"("keyframe":true)"), std::string::npos) << patch;
+    say(R"({"openView":{"view":4,"viewport":{"width":8,"height":6},"inputSeq":"1"}})");
+    ASSERT_NE(waitFor("viewOpened"), "");
+    say(R"({"setPins":{"view":4,"pins":{"codec":"CODEC_VP9"}}})");
+    EXPECT_NE(waitFor("ERROR_CODE_UNSUPPORTED").find("pins.codec"), std::string::npos)
+        << "it was not tried yet";
+    say(R"({"patchDecoded":{"codec":"CODEC_H264","rgb":"AAAA"}})");
+    EXPECT_NE(waitFor("patch_decoded.codec").find("CODEC_H264"), std::string::npos);
+    // Black, white, red, green, blue, grey, and two more: as they were sent.
+    say(R"({"patchDecoded":{"codec":"CODEC_VP9","rgb":"AAAA/////wAAAP8AAAD/gICAQKBg4IAg"}})");
+    say(R"({"setPins":{"view":4,"pins":{"codec":"CODEC_VP9","quality":80}}})");
+    drawLast();
+    const std::string frame = waitFor(R"("codec":"CODEC_VP9")");
+    EXPECT_NE(frame.find(R"("keyframe":true)"), std::string::npos) << frame;
+    EXPECT_NE(frame.find(R"("quality":80)"), std::string::npos) << frame;
+    say(R"({"patchDecoded":{"codec":"CODEC_VP9","rgb":"AAAA"}})");
+    EXPECT_NE(waitFor("patch_decoded.codec"), "") << "each patch is answered once";
+}
+
+TEST_F(SessionTest, ADecoderWithWrongColoursIsNotUsed) {
+    say(R"({"hello":{"major":1,"codecs":["CODEC_JPEG","CODEC_VP9"]}})");
+    ASSERT_NE(waitFor(R"("patch":true)"), "");
+    say(R"({"openView":{"view":4,"viewport":{"width":8,"height":6},"inputSeq":"1"}})");
+    ASSERT_NE(waitFor("viewOpened"), "");
+    // All black, as a decoder without colours would make it.
+    say(R"({"patchDecoded":{"codec":"CODEC_VP9","rgb":"AAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAA"}})");
+    say(R"({"setPins":{"view":4,"pins":{"codec":"CODEC_VP9"}}})");
+    EXPECT_NE(waitFor("ERROR_CODE_UNSUPPORTED").find("pins.codec"), std::string::npos);
+}
+
+TEST_F(SessionTest, PinsOutOfRangeAreRefusedByName) {
+    openView();
+    for (const auto& [pins, field] :
+         {std::pair{R"("quality":29)", "pins.quality"}, {R"("quality":101)", "pins.quality"},
+          {R"("scale":0.2)", "pins.scale"}, {R"("scale":"NaN")", "pins.scale"},
+          {R"("framesPerS":0)", "pins.frames_per_s"}, {R"("framesPerS":241)", "pins.frames_per_s"},
+          {R"("codec":"CODEC_WEBP")", "pins.codec"}}) {
+        say(std::string{R"({"setPins":{"view":4,"pins":{)"} + pins + "}}}");
+        EXPECT_NE(waitFor(R"("error")").find(field), std::string::npos) << pins;
+    }
+    say(R"({"setPins":{"view":9,"pins":{}}})");
+    EXPECT_NE(waitFor("ERROR_CODE_NOT_FOUND"), "");
+    say(R"({"setPins":{"view":4,"pins":{"quality":30,"scale":0.25}}})");
+    ASSERT_EQ(render.requests.size(), 2U);
+    EXPECT_EQ(render.requests.back().size, glm::ivec2(2, 2)) << "8 x 6 at a quarter, rounded";
+}
+
 }  // namespace
 }  // namespace volcast::session
