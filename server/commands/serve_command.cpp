@@ -181,14 +181,6 @@ void addLimits(CLI::App& command, ServeSettings& settings) {
         ->check(CLI::Range(workers::kLeastVolumeBudgetMib, workers::kMostVolumeBudgetMib));
 }
 
-void addState(CLI::App& command, ServeSettings& settings) {
-    command.add_option("--state-dir", settings.stateFolder,
-                       "Folder that keeps views over a restart; none: they end with the server");
-    command.add_option("--link-key-file", settings.linkKeyFile,
-                       "Key that share links are signed with, made where there is none; none: "
-                       "link.key in --state-dir, else one of this run");
-}
-
 void addFaults(CLI::App& command, ServeSettings& settings) {
     CLI::Option* allowed = command.add_flag(
         "--allow-faults", settings.allowFaults,
@@ -203,6 +195,14 @@ void addFaults(CLI::App& command, ServeSettings& settings) {
             },
             "FOR TESTS ALONE: each worker gets this --fault; see volcast-worker --list-faults")
         ->needs(allowed);
+}
+
+void addState(CLI::App& command, ServeSettings& settings) {
+    command.add_option("--state-dir", settings.stateFolder,
+                       "Folder that keeps views over a restart; none: they end with the server");
+    command.add_option("--link-key-file", settings.linkKeyFile,
+                       "Key that share links are signed with, made where there is none; none: "
+                       "link.key in --state-dir, else one of this run");
 }
 
 }  // namespace

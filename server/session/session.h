@@ -88,11 +88,6 @@ private:
     void closeView(std::uint32_t number);
     void ack(const v1::Ack& message, TimePoint now);
 
-    void shareView(const v1::ShareView& message);
-    void takeControl(const v1::TakeControl& message);
-    void handOver(const v1::HandOver& message);
-    void undo(const v1::Undo& message, TimePoint now);
-
     // session_pacing.cpp
     static std::vector<v1::Codec> codecsHere();
     /// Errors: kUnsupported where nothing that every server sends is among them.
@@ -100,6 +95,10 @@ private:
     std::optional<Outgoing> nextPatch();
     void patchDecoded(const v1::PatchDecoded& message);
     void setPins(const v1::SetPins& message, TimePoint now);
+    void shareView(const v1::ShareView& message);
+    void takeControl(const v1::TakeControl& message);
+    void handOver(const v1::HandOver& message);
+    void undo(const v1::Undo& message, TimePoint now);
 
     void explain(const v1::Explain& message);
     void measureAccuracy(const v1::MeasureAccuracy& message);

@@ -173,8 +173,8 @@ void SharedView::apply(SceneChange change, TimePoint now, ViewerId author, bool 
         if (!viewer->opened) tellOpened(id);
         wake(*viewer);
     }
-    changed();
     for (const auto& [id, viewer] : viewers_) place(*viewer);
+    changed();
     for (const auto& rendition : renditions_) rendition->want();
     advance(now);
 }

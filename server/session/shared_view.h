@@ -67,15 +67,15 @@ public:
     /// Errors: as sizeFrom() and ViewScene::update.
     Result<void> update(ViewerId viewer, const v1::Update& message, TimePoint now);
     void acked(ViewerId viewer, const FrameAck& ack, TimePoint now);
+    /// What pacing must not change of this viewer's frames; `codec` of interactive pictures.
+    void setPins(ViewerId viewer, const PacePins& pins, v1::Codec codec, TimePoint now);
+    /// More, or less, is known of what its client can show.
+    void setCodecs(ViewerId viewer, const ClientCodecs& codecs);
     void undo(ViewerId viewer, const v1::Undo& message, TimePoint now);
     void takeControl(ViewerId viewer);
     void handOver(ViewerId viewer, std::uint32_t person);
     /// Empty where the viewer may share the view, else why not.
     [[nodiscard]] std::string whyNotSharing(ViewerId viewer) const;
-    /// What pacing must not change of this viewer's frames; `codec` of interactive pictures.
-    void setPins(ViewerId viewer, const PacePins& pins, v1::Codec codec, TimePoint now);
-    /// More, or less, is known of what its client can show.
-    void setCodecs(ViewerId viewer, const ClientCodecs& codecs);
     std::optional<v1::ServerMessage> takeMail(ViewerId viewer);
     std::optional<ReadyFrame> takeFrame(ViewerId viewer, TimePoint now);
     void tick(ViewerId viewer, TimePoint now);

@@ -120,12 +120,12 @@ private:
     [[nodiscard]] v1::Pace paceOf(const Encoding& encoding, TimePoint now) const;
 
     Desc desc_;
-    std::uint64_t resizedBy_ = 0;
     Pacing pacing_;
     v1::Codec pinnedCodec_ = v1::CODEC_UNSPECIFIED;
     bool resting_ = false;  ///< The picture is wanted in full.
     Rendition::InVideo video_;
     std::size_t losslessBytes_ = 0;  ///< Of its last lossless frame.
+    std::uint64_t resizedBy_ = 0;
     TimePoint lastInput_{};
     std::uint64_t taken_ = 0;             ///< Number of the picture it took last.
     std::uint64_t shownSeq_ = 0;          ///< Newest input that it was sent a picture of.

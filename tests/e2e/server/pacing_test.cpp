@@ -75,7 +75,7 @@ protected:
     /// A client with all codecs, patches answered, view 1 open.
     std::unique_ptr<TestClient> clientWithVideo() {
         v1::Hello hello;
-        for (const auto codec :
+        for (const v1::Codec codec :
              {v1::CODEC_JPEG, v1::CODEC_PNG, v1::CODEC_WEBP, v1::CODEC_VP9, v1::CODEC_H264}) {
             hello.add_codecs(codec);
         }

@@ -27,8 +27,7 @@ class TestClient {
 public:
     enum class Form { kBinary, kJson };
 
-    /// Connects and says hello; check ok(). Without `codecs` in `hello` it shows what every client
-    /// does.
+    /// Connects and says hello; check ok(). `hello`: what it says besides its version.
     explicit TestClient(std::uint16_t port, Form form = Form::kBinary,
                         const WsOptions& options = {}, v1::Hello hello = {});
 

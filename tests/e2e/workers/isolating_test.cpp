@@ -25,7 +25,7 @@ constexpr const char* kSlider =
     "#uicontrol int rounds slider(min=0, max=200, default=0)\n"
     "void main() { float x = 0.5; for (int i = 0; i < 200; ++i) { if (i >= rounds) break;\n"
     "x = sin(x + getDataValue()); x = cos(x * 1.1); x = exp(-x * x); x = sin(x + 2.0);\n"
-    "x = cos(x * 1.3); x = exp(-x); x = sin(x + 1.0); x = cos(x * 1.7); x = exp(-x * x); }\n"
+    "x = cos(x * 1.3); x = exp(-x); x = sin(x + 1.0); x = cos(x * 1.7); }\n"
     "emitRGBA(vec4(x, x, x, 1e-6)); }";
 
 workers::RenderRequest byCode(const Service& service, std::uint64_t view, std::uint64_t tag,

@@ -190,7 +190,7 @@ TEST_F(ViewerPacingTest, VideoComesInPlaceOfJpegWhereTheWayIsCrowdedAndDecodes) 
     EXPECT_FALSE(frame->header.keyframe());
     const auto decoded = decoder.decode(*frame->payload);
     ASSERT_TRUE(decoded.has_value());
-    EXPECT_NEAR(decoded->rgb.front(), (8 * pictures) & 0xFF, 3);
+    EXPECT_NEAR(decoded->rgb.front(), static_cast<double>((8 * pictures) & 0xFF), 3);
     // The exact picture is a file, smaller as WebP.
     now += std::chrono::seconds{1};
     follow();
@@ -262,7 +262,7 @@ TEST_F(VideoGroupTest, WhoMissesAPictureCostsTheOthersNoKeyframes) {
         slowKeys += late->header.keyframe() ? 1 : 0;
         const auto decoded = slowDecoder.decode(*late->payload);
         ASSERT_TRUE(decoded.has_value());
-        EXPECT_NEAR(decoded->rgb.front(), 8 * pictures, 3) << i;
+        EXPECT_NEAR(decoded->rgb.front(), static_cast<double>(8 * pictures), 3) << i;
     }
     EXPECT_EQ(fastKeys, 1);
     EXPECT_EQ(slowKeys, 2) << "on joining, and once on its own";
