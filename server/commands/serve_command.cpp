@@ -116,10 +116,10 @@ int serve(ServeSettings settings) {
     std::fflush(stdout);
     (*server)->run();
     spdlog::info("event=stopped");
+    views.clear();  // Saved, where there is a folder for them.
     // An import that runs can take minutes; its process ends with this one.
     if ((*catalogue)->importing()) std::_Exit(0);
     // News of other threads end before the sockets' context does.
-    views.clear();
     encoders.reset();
     catalogue->reset();
     render->reset();

@@ -162,7 +162,8 @@ v1::Pace Viewer::paceOf(const Encoding& encoding, TimePoint now) const {
 v1::FrameHeader Viewer::headerOf(const Encoding& encoding, TimePoint now) const {
     v1::FrameHeader header = encoding.picture->header;
     const RenditionKey& key = encoding.picture->key;
-    if (key == wanted() || key == full()) header.set_input_seq(std::max(header.input_seq(), resizedBy_));
+    if (key == wanted() || key == full())
+        header.set_input_seq(std::max(header.input_seq(), resizedBy_));
     header.set_codec(encoding.format.codec);
     header.set_lossless(isLossless(encoding.format.codec));
     header.set_keyframe(encoding.group && encoding.keyframe);

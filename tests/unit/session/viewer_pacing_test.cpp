@@ -286,7 +286,7 @@ TEST_F(VideoGroupTest, AnotherSizeBeginsWithAKeyframe) {
     Viewer one = make();
     drawPicture();
     sendAndAck(one);
-    one.resize({32, 24});
+    one.resize({32, 24}, 0);
     rendition->change(one.wanted());
     drawPicture();
     const auto frame = sendAndAck(one);
