@@ -167,8 +167,9 @@ Result<std::string> signLink(const Link& link, const LinkKey& key) {
 
 Result<Link> readLink(const std::string& text, const LinkKey& key,
                       std::chrono::system_clock::time_point now) {
-    const Error forged = fail(ErrorCode::kInvalidArgument, "the link was not made by this server, or "
-                                                        "was changed on its way");
+    const Error forged = fail(ErrorCode::kInvalidArgument,
+                              "the link was not made by this server, or "
+                              "was changed on its way");
     if (text.size() > kMostText) return forged;
     const std::string bytes = fromBase64Url(text);
     // One spelling of each link: bits that no byte comes of could be changed otherwise.

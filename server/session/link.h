@@ -44,8 +44,8 @@ struct Link {
 /// `link` with a nonce, signed; base64url.
 Result<std::string> signLink(const Link& link, const LinkKey& key);
 
-/// Errors: kInvalidArgument for anything that `key` did not sign as it is, and for what has expired at
-/// `now`.
+/// Errors: kInvalidArgument for anything that `key` did not sign as it is, and for what has expired
+/// at `now`.
 Result<Link> readLink(const std::string& text, const LinkKey& key,
                       std::chrono::system_clock::time_point now);
 

@@ -43,9 +43,8 @@ Result<PersonBook::Arrival> PersonBook::resume(const std::string& token,
                                                std::function<void()> replaced, TimePoint now) {
     const std::lock_guard lock{mutex_};
     // Looked up by a keyed hash: how long that takes tells nothing of other tokens.
-    const auto found = std::ranges::find(records_, hashOf(token), [](const auto& one) {
-        return one.second.tokenHash;
-    });
+    const auto found = std::ranges::find(records_, hashOf(token),
+                                         [](const auto& one) { return one.second.tokenHash; });
     if (found == records_.end() || found->second.until <= now) {
         return fail(ErrorCode::kInvalidArgument,
                     "the resume token is unknown, was used already, or is too old", "hello.resume");
@@ -60,7 +59,6 @@ void PersonBook::lost(std::uint32_t person, std::uint64_t visit, TimePoint until
     if (found == records_.end() || found->second.visit != visit) return;  // Went on elsewhere.
     found->second.replaced = nullptr;
     found->second.until = until;
-    if (found->second.views.empty()) records_.erase(found);
 }
 
 void PersonBook::opened(std::uint32_t person, std::uint32_t number, const std::string& view) {

@@ -24,9 +24,10 @@ public:
     struct Arrival {
         std::uint32_t person = 0;
         std::string name = {};
-        std::string token = {};       ///< For the next connection.
-        std::uint64_t visit = 0;      ///< Unique to this connection.
-        std::map<std::uint32_t, std::string> views = {};  ///< Ids of open ones by the client's numbers.
+        std::string token = {};   ///< For the next connection.
+        std::uint64_t visit = 0;  ///< Unique to this connection.
+        std::map<std::uint32_t, std::string> views =
+            {};  ///< Ids of open ones by the client's numbers.
     };
     /// Somebody new. `replaced` is called, under a lock, when another connection goes on instead.
     Result<Arrival> arrive(std::string name, std::function<void()> replaced);

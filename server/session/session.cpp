@@ -16,6 +16,9 @@ namespace volcast::session {
 namespace {
 
 constexpr std::uint16_t kPolicyViolation = 1008;
+constexpr std::uint16_t kInternalError = 1011;
+constexpr std::uint16_t kGoesOnElsewhere = 4001;  ///< protocol/README.md.
+constexpr std::size_t kMostNameBytes = 64;
 
 std::vector<std::byte> bytesOf(const std::string& text) {
     const auto bytes = std::as_bytes(std::span{text});
@@ -40,7 +43,14 @@ void Session::start() {
 
 Session::~Session() {
     shared_.catalogue.unsubscribe(subscription_);
-    for (const auto& [number, seat] : seats_) leave(seat);
+    if (!greeted_) return;
+    const auto until = Clock::now() + shared_.views.keep();
+    for (const auto& [number, seat] : seats_) {
+        spdlog::info("event=view_lost connection={} view={} frames={}", number_, seat.view->id(),
+                     seat.view->framesSent(seat.viewer));
+        seat.view->lose(seat.viewer, until);
+    }
+    shared_.views.people().lost(who_.person, who_.visit, until);
 }
 
 void Session::receive(std::span<const std::byte> bytes, Form form, TimePoint now) {
@@ -63,11 +73,16 @@ void Session::receive(std::span<const std::byte> bytes, Form form, TimePoint now
         case v1::ClientMessage::kUpdate: return updateView(message->update(), now);
         case v1::ClientMessage::kCloseView: return closeView(message->close_view().view());
         case v1::ClientMessage::kAck: return ack(message->ack(), now);
+        case v1::ClientMessage::kShareView: return shareView(message->share_view());
+        case v1::ClientMessage::kTakeControl: return takeControl(message->take_control());
+        case v1::ClientMessage::kHandOver: return handOver(message->hand_over());
+        case v1::ClientMessage::kUndo: return undo(message->undo(), now);
         case v1::ClientMessage::kExplain: return explain(message->explain());
         case v1::ClientMessage::kMeasureAccuracy:
             return measureAccuracy(message->measure_accuracy());
         case v1::ClientMessage::kPick: return pick(message->pick());
         case v1::ClientMessage::kDescribeShader: return describeShader(message->describe_shader());
+        case v1::ClientMessage::kInjectFault: return injectFault(message->inject_fault());
         case v1::ClientMessage::kSetPins: return setPins(message->set_pins(), now);
         case v1::ClientMessage::kPatchDecoded: return patchDecoded(message->patch_decoded());
         case v1::ClientMessage::kPing: {
@@ -97,10 +112,46 @@ void Session::hello(const v1::Hello& message) {
         send(errorMessage(taken.error(), {}));
         return end({kPolicyViolation, "no codec in common"});
     }
+    if (!identify(message)) return;
     greeted_ = true;
-    spdlog::info(R"(event=hello connection={} client="{}" form={})", number_,
-                 base::printable(message.client(), 80), form_ == Form::kJson ? "json" : "binary");
+    spdlog::info(R"(event=hello connection={} client="{}" form={} person={} resumed={})", number_,
+                 base::printable(message.client(), 80), form_ == Form::kJson ? "json" : "binary",
+                 who_.person, resumed_);
     welcome();
+    comeBack(who_.views);
+}
+
+bool Session::identify(const v1::Hello& message) {
+    if (message.person().size() > kMostNameBytes) {
+        send(errorMessage(v1::ERROR_CODE_LIMIT_EXCEEDED,
+                          "a name of " + std::to_string(message.person().size()) +
+                              " bytes; the limit is " + std::to_string(kMostNameBytes),
+                          {}, "hello.person"));
+        end({kPolicyViolation, "name too long"});
+        return false;
+    }
+    PersonBook& people = shared_.views.people();
+    const auto replaced = onStrand([](Session& self) {
+        self.end({kGoesOnElsewhere, "another connection goes on"});
+    });
+    if (!message.resume().empty()) {
+        const auto back = people.resume(message.resume(), replaced, Clock::now());
+        resumed_ = back.has_value();
+        if (resumed_) {
+            who_ = *back;
+            return true;
+        }
+        send(errorMessage(v1::ERROR_CODE_NOT_PERMITTED, back.error().message, {},
+                          back.error().field));
+    }
+    const auto arrival = people.arrive(base::printable(message.person()), replaced);
+    if (!arrival) {
+        send(errorMessage(arrival.error(), {}));
+        end({kInternalError, "no random bytes"});
+        return false;
+    }
+    who_ = *arrival;
+    return true;
 }
 
 void Session::welcome() {
@@ -115,7 +166,11 @@ void Session::welcome() {
         if (row.onMeshes) welcome.add_mesh_models(worker::toMessage(row.model));
         if (row.onVolumes) welcome.add_volume_models(worker::toMessage(row.model));
     }
+    welcome.set_resume(who_.token);
+    welcome.set_resumed(resumed_);
+    welcome.set_person(who_.person);
     v1::Limits& limits = *welcome.mutable_limits();
+    limits.set_max_people(static_cast<std::uint32_t>(shared_.views.maxPeople()));
     limits.set_max_views(shared_.limits.maxViews);
     limits.set_max_side(scene::kMaxPictureSide);
     limits.set_max_layers(scene::Scene::kMaxLayers);

@@ -75,9 +75,15 @@ private:
     Session(Shared& shared, std::uint64_t number, SessionHooks hooks);
     void start();
     void hello(const v1::Hello& message);
+    /// False where the connection ends.
+    bool identify(const v1::Hello& message);
     void welcome();
+    void comeBack(const std::map<std::uint32_t, std::string>& views);
     void openDataset(const v1::OpenDataset& message);
     void openView(const v1::OpenView& message, TimePoint now);
+    void joinView(const v1::OpenView& message, scene::PictureSize size, TimePoint now);
+    void takeSeat(std::uint32_t number, std::shared_ptr<SharedView> view, ViewerId viewer);
+    [[nodiscard]] Viewer::Desc viewerDesc(std::uint32_t number, scene::PictureSize size);
     void updateView(const v1::Update& message, TimePoint now);
     void closeView(std::uint32_t number);
     void ack(const v1::Ack& message, TimePoint now);
@@ -89,14 +95,18 @@ private:
     std::optional<Outgoing> nextPatch();
     void patchDecoded(const v1::PatchDecoded& message);
     void setPins(const v1::SetPins& message, TimePoint now);
+    void shareView(const v1::ShareView& message);
+    void takeControl(const v1::TakeControl& message);
+    void handOver(const v1::HandOver& message);
+    void undo(const v1::Undo& message, TimePoint now);
 
     void explain(const v1::Explain& message);
     void measureAccuracy(const v1::MeasureAccuracy& message);
     void pick(const v1::Pick& message);
     void describeShader(const v1::DescribeShader& message);
+    void injectFault(const v1::InjectFault& message);
 
     void datasetChanged(const v1::DatasetInfo& info);
-    void leave(const Seat& seat);
     void send(const v1::ServerMessage& message);
     /// Null where the view is not open, which the client is told.
     const Seat* findOrRefuse(std::uint32_t number, std::uint64_t inputSeq);
@@ -109,6 +119,8 @@ private:
     TimePoint created_ = Clock::now();
     std::uint64_t subscription_ = 0;
     bool greeted_ = false;
+    PersonBook::Arrival who_;  ///< Once greeted.
+    bool resumed_ = false;
     Form form_ = Form::kBinary;
     ClientCodecs codecs_;
     std::vector<v1::Codec> untried_;       ///< The client has not answered their colour patches.

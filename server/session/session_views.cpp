@@ -39,15 +39,26 @@ void Session::openView(const v1::OpenView& message, TimePoint now) {
     }
     const auto size = sizeFrom(message.viewport(), shared_.limits.maxViewPixels);
     if (!size) return send(errorMessage(size.error(), about));
+    if (!message.link().empty()) return joinView(message, *size, now);
     auto view = shared_.views.open(message);
     if (!view) return send(errorMessage(view.error(), about));
-    spdlog::info("event=view_opened connection={} number={} view={}", number_, number,
-                 (*view)->id());
-    const ViewerId viewer = (*view)->join(
-        {.number = number, .codecs = codecs_, .size = *size, .wake = onStrand([](const Session&) {
-                                                             })},
-        now);
-    seats_[number] = {.view = std::move(*view), .viewer = viewer};
+    const auto viewer =
+        (*view)->join(viewerDesc(number, *size),
+                      {.person = who_.person, .name = who_.name, .role = v1::ROLE_CONTROL}, now);
+    if (!viewer) return send(errorMessage(viewer.error(), about));
+    takeSeat(number, std::move(*view), *viewer);
+}
+
+Viewer::Desc Session::viewerDesc(std::uint32_t number, scene::PictureSize size) {
+    return {
+        .number = number, .codecs = codecs_, .size = size, .wake = onStrand([](const Session&) {})};
+}
+
+void Session::takeSeat(std::uint32_t number, std::shared_ptr<SharedView> view, ViewerId viewer) {
+    spdlog::info("event=view_opened connection={} number={} view={} person={}", number_, number,
+                 view->id(), who_.person);
+    shared_.views.people().opened(who_.person, number, view->id());
+    seats_[number] = {.view = std::move(view), .viewer = viewer};
 }
 
 void Session::updateView(const v1::Update& message, TimePoint now) {
@@ -61,15 +72,12 @@ void Session::updateView(const v1::Update& message, TimePoint now) {
 void Session::closeView(std::uint32_t number) {
     const Seat* seat = findOrRefuse(number, 0);
     if (seat == nullptr) return;
-    leave(*seat);
+    spdlog::info("event=view_closed connection={} view={} frames={}", number_, seat->view->id(),
+                 seat->view->framesSent(seat->viewer));
+    seat->view->leave(seat->viewer);
+    shared_.views.left(seat->view);
+    shared_.views.people().closed(who_.person, number);
     seats_.erase(number);
-}
-
-void Session::leave(const Seat& seat) {
-    spdlog::info("event=view_closed connection={} view={} frames={}", number_, seat.view->id(),
-                 seat.view->framesSent(seat.viewer));
-    seat.view->leave(seat.viewer);
-    shared_.views.released(seat.view);
 }
 
 void Session::ack(const v1::Ack& message, TimePoint now) {

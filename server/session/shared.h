@@ -1,11 +1,14 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <string>
 
 #include "server/session/catalogue.h"
 #include "server/session/encode_pool.h"
 #include "server/session/view_router.h"
+#include "server/workers/fault_switch.h"
 #include "server/workers/render_service.h"
 
 namespace volcast::session {
@@ -27,6 +30,9 @@ struct ViewParts {
     ViewRouter& router;
     EncodePool& encoders;
     std::uint64_t maxPixels = SessionLimits{}.maxViewPixels;
+    std::size_t maxPeople = 256;  ///< In one view.
+    /// The view `id` has something new to save; called without locks of views.
+    std::function<void(const std::string& id)> changed = {};
 };
 
 /// What all sessions of a server share; all of it outlives them.
@@ -35,8 +41,9 @@ struct Shared {
     Catalogue& catalogue;
     Views& views;
     SessionLimits limits;
-    std::string server;     ///< Name and version.
-    std::string sourceUrl;  ///< Where the source of this server is.
+    std::string server;                      ///< Name and version.
+    std::string sourceUrl;                   ///< Where the source of this server is.
+    workers::FaultSwitch* faults = nullptr;  ///< Null: nobody may inject faults.
 };
 
 }  // namespace volcast::session

@@ -118,7 +118,13 @@ void SharedView::failed(std::uint64_t tag, const Error& error) {
     const std::shared_ptr<Rendition> refused = *found;
     Error told = error;
     if (told.field.starts_with("layers[")) told.field = "scene." + told.field;
-    const bool reverted = scene_.revert();
+    // Not where the worker alone is to blame: the scene is drawn once there is one again.
+    const bool sceneIsToBlame = !error.field.empty() || error.code == ErrorCode::kOutOfGpuMemory;
+    const auto reverted = sceneIsToBlame ? scene_.revert() : std::nullopt;
+    if (reverted) {
+        told.message = "the scene of input " + std::to_string(*reverted) +
+                       " is refused, the last one that was drawn stays: " + told.message;
+    }
     for (const auto& [id, viewer] : viewers_) {
         if (viewer->rendition != refused) continue;
         if (!reverted) {
@@ -129,7 +135,8 @@ void SharedView::failed(std::uint64_t tag, const Error& error) {
             setState(*viewer, v1::VIEW_STATE_ACTIVE, "");
         }
     }
-    reverted ? apply(SceneChange::kDraw, now) : advance(now);
+    if (!reverted) return advance(now);
+    apply(SceneChange::kDraw, now, people_.steering());
 }
 
 void SharedView::recovering() {
@@ -172,27 +179,35 @@ void SharedView::encoded(const std::shared_ptr<Encoding>& encoding, Encoding don
     }
 }
 
-std::optional<ReadyFrame> SharedView::takeFrame(ViewerId viewer, TimePoint now) {
+std::optional<ReadyFrame> SharedView::takeFrame(ViewerId id, TimePoint now) {
     const Turn turn{*this};
-    auto frame = at(viewer).takeFrame(now);
-    if (frame) advance(at(viewer), now);
+    Viewer* viewer = find(id);
+    auto frame = viewer == nullptr ? std::nullopt : viewer->takeFrame(now);
+    if (frame) advance(*viewer, now);
     return frame;
 }
 
-void SharedView::tick(ViewerId viewer, TimePoint now) {
+void SharedView::tick(ViewerId id, TimePoint now) {
     const Turn turn{*this};
-    at(viewer).tick(now);
-    advance(at(viewer), now);
+    expire(now);
+    Viewer* viewer = find(id);
+    if (viewer == nullptr) return;
+    viewer->tick(now);
+    advance(*viewer, now);
 }
 
-std::optional<TimePoint> SharedView::deadline(ViewerId viewer, TimePoint now) const {
+std::optional<TimePoint> SharedView::deadline(ViewerId id, TimePoint now) const {
     const Lock lock{mutex_};
-    return at(viewer).deadline(now);
+    const Viewer* viewer = find(id);
+    if (viewer == nullptr) return std::nullopt;
+    const auto frames = viewer->deadline(now), expiry = people_.firstExpiry();
+    return frames && expiry ? std::min(frames, expiry) : frames ? frames : expiry;
 }
 
-std::uint32_t SharedView::framesSent(ViewerId viewer) const {
+std::uint32_t SharedView::framesSent(ViewerId id) const {
     const Lock lock{mutex_};
-    return at(viewer).framesSent();
+    const Viewer* viewer = find(id);
+    return viewer == nullptr ? 0 : viewer->framesSent();
 }
 
 SharedView::Counts SharedView::counts() const {

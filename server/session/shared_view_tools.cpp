@@ -9,23 +9,34 @@
 
 namespace volcast::session {
 
+namespace {
+
+Error notThere() {
+    return fail(ErrorCode::kNotFound, "the view is not open", "view");
+}
+
+}  // namespace
+
 Result<v1::Plan> SharedView::explain(ViewerId id) const {
     const Lock lock{mutex_};
-    const auto plan = plans_.find(at(id).rendition.get());
+    const Viewer* viewer = find(id);
+    if (viewer == nullptr) return notThere();
+    const auto plan = plans_.find(viewer->rendition.get());
     if (plan == plans_.end()) {
         return fail(ErrorCode::kNotFound,
-                    "view " + std::to_string(at(id).number()) +
+                    "view " + std::to_string(viewer->number()) +
                         " has no picture yet that could be explained",
                     "view");
     }
     v1::Plan message = plan->second;
-    message.set_view(at(id).number());
+    message.set_view(viewer->number());
     return message;
 }
 
 Result<void> SharedView::measure(ViewerId id, const v1::MeasureAccuracy& message) {
     const Turn turn{*this};
-    const Viewer& viewer = at(id);
+    if (find(id) == nullptr) return notThere();
+    const Viewer& viewer = *find(id);
     const std::string name = "view " + std::to_string(viewer.number());
     if (message.stop()) {
         if (measures_ == id) stopMeasuring("stopped by the client");
@@ -53,8 +64,9 @@ void SharedView::measured(std::uint64_t tag, const Result<accuracy::Measurement>
     const Turn turn{*this};
     if (!accuracy_.measured(tag, result)) return;
     v1::ServerMessage message;
-    *message.mutable_accuracy_report() = accuracy_.report(at(measures_).number());
-    tell(at(measures_), std::move(message));
+    Viewer& viewer = *find(measures_);  // Nothing runs for one that left.
+    *message.mutable_accuracy_report() = accuracy_.report(viewer.number());
+    tell(viewer, std::move(message));
     if (accuracy_.running()) return measureNext();
     measures_ = 0;
 }
@@ -71,7 +83,7 @@ void SharedView::stopMeasuring(const std::string& why) {
     if (!accuracy_.running()) return;
     accuracy_.stop();
     outbox_.put([this] { parts_.render.stopMeasuring(global_); });
-    Viewer& viewer = at(std::exchange(measures_, 0));
+    Viewer& viewer = *find(std::exchange(measures_, 0));
     v1::ServerMessage message;
     *message.mutable_accuracy_report() = accuracy_.report(viewer.number());
     message.mutable_accuracy_report()->set_stopped(why);
@@ -80,7 +92,8 @@ void SharedView::stopMeasuring(const std::string& why) {
 
 Result<void> SharedView::pick(ViewerId id, const v1::Pick& message) {
     const Turn turn{*this};
-    const Viewer& viewer = at(id);
+    if (find(id) == nullptr) return notThere();
+    const Viewer& viewer = *find(id);
     const auto newest = viewer.sent().rbegin();
     const auto found = message.input_seq() == 0
                            ? newest
@@ -137,7 +150,7 @@ void SharedView::picked(std::uint64_t tag, const Result<std::optional<scene::Pic
     if (tag != pickTag_ || picker_ == 0) return;  // A newer one is on its way.
     const v1::Pick asked = picks_.at(picker_).asked;
     picks_.erase(picker_);
-    Viewer& viewer = at(picker_);
+    Viewer& viewer = *find(picker_);  // A pick goes with its viewer.
     v1::ServerMessage message;
     if (result) {
         v1::Picked& reply = *message.mutable_picked() = worker::toMessage(*result);

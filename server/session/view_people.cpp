@@ -59,6 +59,19 @@ std::optional<TimePoint> ViewPeople::firstExpiry() const {
     return first;
 }
 
+bool ViewPeople::removeOneAway() {
+    auto first = members_.end();
+    for (auto one = members_.begin(); one != members_.end(); ++one) {
+        if (!one->second.awayUntil || steers(one->first)) continue;
+        if (first == members_.end() || *one->second.awayUntil < *first->second.awayUntil) {
+            first = one;
+        }
+    }
+    if (first == members_.end()) return false;
+    members_.erase(first);
+    return true;
+}
+
 std::string ViewPeople::take(ViewerId id) {
     if (members_.at(id).role != v1::ROLE_CONTROL) {
         return "you may watch this view but not steer it; somebody who steers may hand over to you";

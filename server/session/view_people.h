@@ -19,8 +19,8 @@ struct Member {
     std::uint32_t person = 0;  ///< In the whole server.
     std::string name = {};
     v1::Role role = v1::ROLE_WATCH;
-    std::uint32_t number = 0;           ///< The client's own for the view.
-    scene::PictureSize size{512, 512};  ///< Of the client's pictures.
+    std::uint32_t number = 0;                 ///< The client's own for the view.
+    scene::PictureSize size{512, 512};        ///< Of the client's pictures.
     std::optional<TimePoint> awayUntil = {};  ///< The connection was lost; forgotten then.
 };
 
@@ -31,6 +31,7 @@ class ViewPeople {
 public:
     void add(ViewerId id, Member member);
     void remove(ViewerId id);
+    void steer(ViewerId id) { steers_ = id; }
     void away(ViewerId id, TimePoint until) { members_.at(id).awayUntil = until; }
     /// The connection that was lost came back as `id`; the one it was before, or nothing.
     std::optional<ViewerId> find(std::uint32_t person, std::uint32_t number) const;
@@ -38,8 +39,12 @@ public:
     /// Removes who is away for too long; true where somebody was.
     bool expire(TimePoint now);
     [[nodiscard]] std::optional<TimePoint> firstExpiry() const;
+    /// Removes who is away for longest and does not steer; false where nobody is.
+    bool removeOneAway();
 
     [[nodiscard]] bool steers(ViewerId id) const noexcept { return id == steers_; }
+    /// 0: nobody.
+    [[nodiscard]] ViewerId steering() const noexcept { return steers_; }
     [[nodiscard]] Member& at(ViewerId id) { return members_.at(id); }
     [[nodiscard]] const Member& at(ViewerId id) const { return members_.at(id); }
     [[nodiscard]] const std::map<ViewerId, Member>& all() const noexcept { return members_; }

@@ -19,6 +19,26 @@ std::vector<std::string> datasetsOf(const scene::Scene& scene) {
     return {ids.begin(), ids.end()};
 }
 
+bool shownByCode(const scene::Layer& layer) {
+    return layer.visible && scene::runsUserCode(layer);
+}
+
+/// The codes that a scene runs.
+std::vector<std::string> codesOf(const scene::Scene& scene) {
+    std::vector<std::string> codes;
+    for (const scene::Layer& layer : scene.layers) {
+        if (shownByCode(layer)) codes.push_back(layer.shader.code);
+    }
+    return codes;
+}
+
+scene::Scene withoutCode(scene::Scene scene) {
+    for (scene::Layer& layer : scene.layers) {
+        if (shownByCode(layer)) layer.visible = false;
+    }
+    return scene;
+}
+
 /// The error with its field as a path from the message.
 Error within(const std::string& part, Error error) {
     if (error.field.empty()) {
@@ -142,6 +162,13 @@ Result<SceneChange> ViewScene::update(const v1::Update& message) {
     return change;
 }
 
+Result<SceneChange> ViewScene::put(scene::Scene scene, std::uint64_t seq) {
+    const auto change = accept({.scene = std::move(scene), .seqBefore = shownSeq()});
+    if (!change) return change.error();
+    inputSeq_ = sceneSeq_ = seq;
+    return *change;
+}
+
 bool ViewScene::advance(std::uint64_t seq) {
     if (seq <= inputSeq_) return false;
     inputSeq_ = seq;
@@ -176,18 +203,21 @@ void ViewScene::take(scene::Scene scene) {
 
 void ViewScene::drawn(std::uint64_t seq) {
     if (isGood_ || seq < sceneSeq_) return;
+    if (good_ && codesOf(*good_) != codesOf(*scene_)) other_ = std::move(good_);
     good_ = scene_;
     isGood_ = true;
 }
 
-bool ViewScene::revert() {
-    const bool runsCode = scene_ && std::ranges::any_of(scene_->layers, scene::runsUserCode);
-    if (!runsCode || isGood_ || !good_) return false;
+std::optional<std::uint64_t> ViewScene::revert() {
+    if (!scene_ || !good_ || (isGood_ && codesOf(*scene_).empty())) return std::nullopt;
     const scene::Camera camera = scene_->camera;
+    if (isGood_) {
+        good_ = other_ ? std::exchange(other_, std::nullopt) : withoutCode(*scene_);
+    }
     scene_ = good_;
     scene_->camera = camera;
     isGood_ = true;
-    return true;
+    return sceneSeq_;
 }
 
 std::vector<std::string> ViewScene::datasets() const {

@@ -34,6 +34,8 @@ public:
     /// kNotFound for unknown data.
     Result<SceneChange> open(const v1::OpenView& message);
     Result<SceneChange> update(const v1::Update& message);
+    /// Takes a whole scene, as an update of number `seq` would.
+    Result<SceneChange> put(scene::Scene scene, std::uint64_t seq);
     /// An update that changes nothing of the scene; false for an old one.
     bool advance(std::uint64_t seq);
 
@@ -43,9 +45,11 @@ public:
 
     /// A picture of the input `seq` was drawn: scene() may be gone back to.
     void drawn(std::uint64_t seq);
-    /// After a failure of a scene that runs users' code: takes the last scene that was drawn, seen
-    /// by the newest camera. False where there is none, or it is this one.
-    bool revert();
+    /// After a failure that the scene is to blame for: takes the last scene that was drawn, seen by
+    /// the newest camera. Where this one was, its code has failed later: the last scene that was
+    /// drawn with other code, or with none; and where there was none, this one without its layers
+    /// that run code. The input that brought the failed one; nothing where there is no other.
+    std::optional<std::uint64_t> revert();
 
     [[nodiscard]] const std::optional<scene::Scene>& scene() const noexcept { return scene_; }
     [[nodiscard]] bool waiting() const noexcept { return waiting_.has_value(); }
@@ -79,9 +83,10 @@ private:
 
     Catalogue& catalogue_;
     std::optional<scene::Scene> scene_;
-    std::optional<scene::Scene> good_;  ///< The last one that was drawn.
-    bool isGood_ = false;               ///< That is scene_, the camera aside.
-    std::uint64_t sceneSeq_ = 0;        ///< Input that brought scene_.
+    std::optional<scene::Scene> good_;   ///< The last one that was drawn.
+    std::optional<scene::Scene> other_;  ///< The last one with other code.
+    bool isGood_ = false;                ///< That is scene_, the camera aside.
+    std::uint64_t sceneSeq_ = 0;         ///< Input that brought scene_.
     std::optional<Waiting> waiting_;
     std::uint64_t inputSeq_ = 0;
     std::uint64_t seenVersion_ = 0;  ///< dataVersion() when scene_ last changed or was drawn anew.

@@ -161,12 +161,14 @@ v1::Pace Viewer::paceOf(const Encoding& encoding, TimePoint now) const {
 
 v1::FrameHeader Viewer::headerOf(const Encoding& encoding, TimePoint now) const {
     v1::FrameHeader header = encoding.picture->header;
+    const RenditionKey& key = encoding.picture->key;
+    if (key == wanted() || key == full()) header.set_input_seq(std::max(header.input_seq(), resizedBy_));
     header.set_codec(encoding.format.codec);
     header.set_lossless(isLossless(encoding.format.codec));
     header.set_keyframe(encoding.group && encoding.keyframe);
     if (header.lossless()) header.set_pixels_xxh32(encoding.pixelHash);
     const bool best = header.lossless() || desc_.codecs.lossless(false) == v1::CODEC_UNSPECIFIED;
-    header.set_final(header.ready() && best && encoding.picture->key == full());
+    header.set_final(header.ready() && best && key == full());
     if (again_) {
         header.set_redrawn(false);
         header.clear_timings();

@@ -49,7 +49,13 @@ public:
 
     // What it wants.
     [[nodiscard]] RenditionKey wanted() const;
-    void resize(scene::PictureSize size) { desc_.size = size; }
+    /// `seq`: of the update that asked for it, where that is not the scene's; frames of that size
+    /// say so.
+    void resize(scene::PictureSize size, std::uint64_t seq) {
+        desc_.size = size;
+        resizedBy_ = seq;
+    }
+    [[nodiscard]] std::uint64_t resizedBy() const noexcept { return resizedBy_; }
     void setPins(const PacePins& pins, v1::Codec codec);
     void setCodecs(const ClientCodecs& codecs);
     [[nodiscard]] const ClientCodecs& codecs() const noexcept { return desc_.codecs; }
@@ -119,6 +125,7 @@ private:
     bool resting_ = false;  ///< The picture is wanted in full.
     Rendition::InVideo video_;
     std::size_t losslessBytes_ = 0;  ///< Of its last lossless frame.
+    std::uint64_t resizedBy_ = 0;
     TimePoint lastInput_{};
     std::uint64_t taken_ = 0;             ///< Number of the picture it took last.
     std::uint64_t shownSeq_ = 0;          ///< Newest input that it was sent a picture of.

@@ -74,10 +74,13 @@ protected:
     }
     /// A client with all codecs, patches answered, view 1 open.
     std::unique_ptr<TestClient> clientWithVideo() {
+        v1::Hello hello;
+        for (const v1::Codec codec :
+             {v1::CODEC_JPEG, v1::CODEC_PNG, v1::CODEC_WEBP, v1::CODEC_VP9, v1::CODEC_H264}) {
+            hello.add_codecs(codec);
+        }
         auto client =
-            std::make_unique<TestClient>(port(), TestClient::Form::kBinary, WsOptions{},
-                                         std::vector{v1::CODEC_JPEG, v1::CODEC_PNG, v1::CODEC_WEBP,
-                                                     v1::CODEC_VP9, v1::CODEC_H264});
+            std::make_unique<TestClient>(port(), TestClient::Form::kBinary, WsOptions{}, hello);
         if (!client->ok()) return nullptr;
         const auto welcome = client->waitFor([](const auto& one) { return one.has_welcome(); });
         if (!welcome) return nullptr;

@@ -61,7 +61,16 @@ std::vector<std::pair<std::string, std::string>> clientMeanings() {
         {"patch_decoded", R"({"patchDecoded":{"codec":"CODEC_H264","rgb":"AAAA/////wAA"}})"},
         {"patch_failed", R"({"patchDecoded":{"codec":"CODEC_VP9","error":"not supported"}})"},
         {"pick", R"({"pick":{"view":7,"inputSeq":"9007199254740993","x":8191,"y":12}})"},
+        {"inject_fault", R"({"injectFault":{"view":7,"fault":"crash"}})"},
         {"ping", R"({"ping":{"token":"9007199254740993"}})"},
+        {"hello_again", R"({"hello":{"major":1,"minor":2,"person":"Zoë","resume":"a-b_c"}})"},
+        {"open_view_link", R"({"openView":{"view":2,"viewport":{"width":64,"height":48},)"
+                           R"("link":"AQI-_w"}})"},
+        {"share_view", R"({"shareView":{"view":2,"role":"ROLE_WATCH","expiresS":3600}})"},
+        {"take_control", R"({"takeControl":{"view":2}})"},
+        {"hand_over", R"({"handOver":{"view":2,"person":4294967295}})"},
+        {"undo", R"({"undo":{"view":2}})"},
+        {"redo", R"({"undo":{"view":2,"redo":true,"inputSeq":"9007199254740993"}})"},
         {"no_body", "{}"},
     };
 }
@@ -75,6 +84,21 @@ std::vector<std::pair<std::string, std::string>> serverMeanings() {
          R"("volumeModels":["RAY_MODEL_MIP","RAY_MODEL_VOLUME"],)"
          R"("limits":{"maxViews":16,"maxSide":8192,"maxLayers":16,"maxControlPoints":1024,)"
          R"("maxMessageBytes":65536},"sourceUrl":"https://example.org/volcast"}})"},
+        {"welcome_back", R"({"welcome":{"major":1,"minor":2,"limits":{"maxPeople":256},)"
+                         R"("resume":"a-b_c","resumed":true,"person":7}})"},
+        {"view_opened_again",
+         R"({"viewOpened":{"view":2,"scene":)" + scene +
+             R"(,"id":"hU7-_x","role":"ROLE_CONTROL","inputSeq":"41","canUndo":true}})"},
+        {"scene_changed", R"({"sceneChanged":{"view":2,"scene":)" + scene +
+                              R"(,"inputSeq":"42","person":7,"canUndo":true,"canRedo":true}})"},
+        {"scene_changed_camera",
+         R"({"sceneChanged":{"view":2,"inputSeq":"43","person":7,"canUndo":true,)"
+         R"("camera":{"eye":{"x":-1.5},"center":{},"up":{"z":1},"fovyDegrees":30}}})"},
+        {"view_shared", R"({"viewShared":{"view":2,"link":"AQI-_w","url":"/#link=AQI-_w",)"
+                        R"("role":"ROLE_WATCH","expires":"1800000000"}})"},
+        {"people",
+         R"({"people":{"view":2,"people":[{"id":7,"name":"Zoë","role":"ROLE_CONTROL",)"
+         R"("steers":true},{"id":8,"name":"Guest 8","role":"ROLE_WATCH","away":true}]}})"},
         {"dataset_list_empty", R"({"datasetList":{}})"},
         {"dataset_list", R"({"datasetList":{"datasets":[{"id":"demo:mesh","name":"Demo mesh"},)"
                          R"({"id":"a b/é.vtu","name":"é.vtu","state":"DATASET_STATE_IMPORTING",)"

@@ -23,8 +23,11 @@ protected:
         desc.importer = importCube;
         catalogue = *Catalogue::create(std::move(desc), render);
         events = router.events();
-        views = std::make_unique<Views>(ViewParts{
-            .render = render, .catalogue = *catalogue, .router = router, .encoders = encoders});
+        views = std::make_unique<Views>(ViewsDesc{.parts = {.render = render,
+                                                            .catalogue = *catalogue,
+                                                            .router = router,
+                                                            .encoders = encoders},
+                                                  .key = *LinkKey::random()});
         shared = std::make_unique<Shared>(Shared{.render = render,
                                                  .catalogue = *catalogue,
                                                  .views = *views,

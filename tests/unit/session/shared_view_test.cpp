@@ -24,8 +24,11 @@ protected:
         const std::string id = catalogue->list().datasets(0).id();
         ASSERT_TRUE(catalogue->require(id).has_value());
         while (!catalogue->standing(id).loaded) std::this_thread::yield();
-        views = std::make_unique<Views>(ViewParts{
-            .render = render, .catalogue = *catalogue, .router = router, .encoders = encoders});
+        views = std::make_unique<Views>(ViewsDesc{.parts = {.render = render,
+                                                            .catalogue = *catalogue,
+                                                            .router = router,
+                                                            .encoders = encoders},
+                                                  .key = *LinkKey::random()});
         v1::OpenView open;
         open.set_dataset(id);
         open.set_input_seq(1);
@@ -36,17 +39,18 @@ protected:
         views->clear();
         catalogue.reset();
     }
-    ViewerId join(scene::PictureSize size = {8, 6}) {
-        return view->join({.number = 1,
-                           .codecs = {},
-                           .size = size,
-                           .wake =
-                               [this] {
-                                   const std::lock_guard lock{mutex};
-                                   ++wakes;
-                                   woken.notify_all();
-                               }},
-                          Clock::now());
+    ViewerId join(scene::PictureSize size = {8, 6}, v1::Role role = v1::ROLE_CONTROL) {
+        return *view->join({.number = 1,
+                            .codecs = {},
+                            .size = size,
+                            .wake =
+                                [this] {
+                                    const std::lock_guard lock{mutex};
+                                    ++wakes;
+                                    woken.notify_all();
+                                }},
+                           {.person = ++people, .name = "p" + std::to_string(people), .role = role},
+                           Clock::now());
     }
     void look(ViewerId viewer, std::uint64_t seq) {
         v1::Update update;
@@ -87,6 +91,7 @@ protected:
     std::mutex mutex;
     std::condition_variable woken;
     int wakes = 0;
+    std::uint32_t people = 0;
     std::unique_ptr<Views> views;
     std::shared_ptr<SharedView> view;
     EncodePool encoders{2};  // Last: its threads call the view until they have ended.
@@ -218,8 +223,8 @@ TEST_F(SharedViewTest, ManyThreadsAtOnceLoseNoFrame) {
     constexpr int kWatchers = 4;
     std::atomic<bool> done = false;
     std::vector<ViewerId> watchers;
-    for (int i = 0; i < kWatchers; ++i) watchers.push_back(join());
     const ViewerId steers = join();
+    for (int i = 0; i < kWatchers; ++i) watchers.push_back(join());
     std::vector<std::thread> threads;
     std::vector<std::uint64_t> seen(kWatchers + 1, 0);
     const auto watch = [&](ViewerId viewer, std::uint64_t& newest) {

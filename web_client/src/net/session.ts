@@ -3,7 +3,7 @@ import { type AppState, type Edit, notify } from "../state/app_state";
 import type { ViewDocument } from "../state/document";
 import { sentenceOf } from "../state/refusal";
 import { cameraMessage, sceneMessage } from "../state/scene_message";
-import { type CodeOfData, takeDescription } from "../state/shader_actions";
+import { type CodeOfData, removeCode, takeDescription } from "../state/shader_actions";
 import { Connection } from "./connection";
 import { decodeFrame, type Frame, isFrame, kMajor, kMinor } from "./framing";
 import type { Error as ErrorMessage } from "./gen/volcast/v1/error_pb";
@@ -378,7 +378,11 @@ export class Session {
       this.#state.refusal.value = { inputSeq, field, message };
       this.mark("camera"); // Both may have been parts of the refused update.
       this.mark("viewport");
-    } else if (!this.#isListed(error.dataset)) notify(this.#state, "error", text);
+    } else if (!this.#isListed(error.dataset)) {
+      notify(this.#state, "error", text);
+      // Code that drew well has failed later: the view is back at what was there before it.
+      if (error.view === this.#view && /\.shader\./.test(error.field)) removeCode(this.#state);
+    }
   }
 
   /** The newest settings are not drawn; what was drawn before them stays. */

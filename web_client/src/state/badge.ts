@@ -7,6 +7,7 @@ export type BadgeKind =
   | "waiting"
   | "moving"
   | "live"
+  | "refining"
   | "final"
   | "recovering"
   | "reconnecting"
@@ -67,6 +68,10 @@ export function badgeOf(state: Facts, now: number): Badge {
   }
   if (picture.lossless && picture.final) {
     return lossless(picture.exact);
+  }
+  if (!picture.ready) {
+    const detail = "Parts of the volume are coarser than asked for; better pictures follow";
+    return { kind: "refining", label: "Loading finer parts", detail };
   }
   return { kind: "live", label: "Live", detail: "Up to date; the lossless picture follows" };
 }
