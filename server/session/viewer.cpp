@@ -162,8 +162,9 @@ v1::Pace Viewer::paceOf(const Encoding& encoding, TimePoint now) const {
 v1::FrameHeader Viewer::headerOf(const Encoding& encoding, TimePoint now) const {
     v1::FrameHeader header = encoding.picture->header;
     const RenditionKey& key = encoding.picture->key;
-    if (key == wanted() || key == full())
+    if (key == wanted() || key == full()) {
         header.set_input_seq(std::max(header.input_seq(), resizedBy_));
+    }
     header.set_codec(encoding.format.codec);
     header.set_lossless(isLossless(encoding.format.codec));
     header.set_keyframe(encoding.group && encoding.keyframe);
@@ -185,7 +186,7 @@ std::optional<ReadyFrame> Viewer::takeFrame(TimePoint now) {
     if (!encoding_ || !encoding_->done) return std::nullopt;
     ReadyFrame frame{
         .sequence = ++sequence_, .header = headerOf(*encoding_, now), .payload = encoding_->bytes};
-    shownSeq_ = frame.header.input_seq();
+    shownSeq_ = encoding_->picture->header.input_seq();
     if (frame.header.lossless()) losslessBytes_ = frame.payload->size();
     if (sent_.size() >= kSentKept) sent_.pop_front();
     sent_.push_back({.inputSeq = frame.header.input_seq(),

@@ -52,7 +52,7 @@ Result<ContextPtr> openEncoder(const EncoderRow& row, glm::ivec2 size, int quali
     context->colorspace = AVCOL_SPC_BT709;
     context->color_primaries = AVCOL_PRI_BT709;
     context->color_trc = AVCOL_TRC_IEC61966_2_1;
-    context->color_range = row.range == YuvRange::kFull ? AVCOL_RANGE_JPEG : AVCOL_RANGE_MPEG;
+    context->color_range = AVCOL_RANGE_JPEG;  // Full: see yuv.h.
     context->chroma_sample_location = AVCHROMA_LOC_CENTER;
     AVDictionary* options = nullptr;
     for (const EncoderRow::Option& option : row.options) {

@@ -8,7 +8,6 @@ extern "C" {
 }
 
 #include "server/video/video_stream.h"
-#include "server/video/yuv.h"
 
 namespace volcast::video {
 
@@ -27,7 +26,6 @@ struct EncoderRow {
     const char* name;
     bool hardware;
     AVPixelFormat format;
-    YuvRange range;
     const char* quantiser;  ///< The option that takes a constant quality.
     double best, worst;     ///< Its values for quality 100 and 0.
     std::array<Option, 8> options;
@@ -39,7 +37,6 @@ inline constexpr std::array<EncoderRow, 3> kEncoderRows{
                "libvpx-vp9",
                false,
                AV_PIX_FMT_YUV444P,
-               YuvRange::kFull,
                "crf",
                30,
                63,
@@ -51,7 +48,6 @@ inline constexpr std::array<EncoderRow, 3> kEncoderRows{
                "h264_nvenc",
                true,
                AV_PIX_FMT_YUV420P,
-               YuvRange::kLimited,
                "cq",
                14,
                51,
@@ -65,7 +61,6 @@ inline constexpr std::array<EncoderRow, 3> kEncoderRows{
                "libx264",
                false,
                AV_PIX_FMT_YUV420P,
-               YuvRange::kLimited,
                "crf",
                12,
                51,

@@ -9,6 +9,7 @@ extern "C" {
 #include "server/video/colour_patch.h"
 #include "server/video/image_check.h"
 #include "server/video/video_encoders.h"
+#include "server/video/yuv.h"
 
 namespace volcast::video {
 
@@ -86,9 +87,9 @@ Result<void> VideoStream::Encoder::fill(const EncoderRow& row, const ImageView& 
     const YuvPlanes planes{.rows = {frame->data[0], frame->data[1], frame->data[2]},
                            .strides = {frame->linesize[0], frame->linesize[1], frame->linesize[2]}};
     if (isSubsampled(row)) {
-        toYuv420(image, row.range, planes);
+        toYuv420(image, planes);
     } else {
-        toYuv444(image, row.range, planes);
+        toYuv444(image, planes);
     }
     frame->pts += 1;
     frame->pict_type = keyframe ? AV_PICTURE_TYPE_I : AV_PICTURE_TYPE_NONE;

@@ -10,7 +10,7 @@ namespace volcast::video {
 
 enum class VideoCodec {
     kVp9,   ///< Profile 1, 4:4:4, BT.709 in full range.
-    kH264,  ///< Annex B, Constrained Baseline, 4:2:0, BT.709 in limited range.
+    kH264,  ///< Annex B, Constrained Baseline, 4:2:0, BT.709 in full range.
 };
 
 struct VideoPicture {

@@ -25,24 +25,9 @@ constexpr Component component(double r, double g, double b, double gain, double 
     return {fixed(r * gain), fixed(g * gain), fixed(b * gain), fixed(zero + 0.5)};
 }
 
-struct Matrix {
-    Component y, cb, cr;
-};
-
-constexpr Matrix matrix(double lumaGain, double lumaZero, double chromaGain) {
-    const double toCb = chromaGain / (2.0 * (1.0 - kBlue));
-    const double toCr = chromaGain / (2.0 * (1.0 - kRed));
-    return {.y = component(kRed, kGreen, kBlue, lumaGain, lumaZero),
-            .cb = component(-kRed, -kGreen, 1.0 - kBlue, toCb, 128.0),
-            .cr = component(1.0 - kRed, -kGreen, -kBlue, toCr, 128.0)};
-}
-
-constexpr Matrix kFullMatrix = matrix(1.0, 0.0, 1.0);
-constexpr Matrix kLimitedMatrix = matrix(219.0 / 255.0, 16.0, 224.0 / 255.0);
-
-const Matrix& matrixOf(YuvRange range) {
-    return range == YuvRange::kFull ? kFullMatrix : kLimitedMatrix;
-}
+constexpr Component kY = component(kRed, kGreen, kBlue, 1.0, 0.0);
+constexpr Component kCb = component(-kRed, -kGreen, 1.0 - kBlue, 0.5 / (1.0 - kBlue), 128.0);
+constexpr Component kCr = component(1.0 - kRed, -kGreen, -kBlue, 0.5 / (1.0 - kRed), 128.0);
 
 const std::uint8_t* rowOf(const ImageView& image, int y) {
     const auto* pixels = reinterpret_cast<const std::uint8_t*>(image.rgba.data());
@@ -56,8 +41,7 @@ std::uint8_t* rowOf(const YuvPlanes& planes, std::size_t plane, int y) {
 
 }  // namespace
 
-void toYuv444(const ImageView& image, YuvRange range, const YuvPlanes& planes) {
-    const Matrix m = matrixOf(range);
+void toYuv444(const ImageView& image, const YuvPlanes& planes) {
     for (int y = 0; y < image.size.y; ++y) {
         const std::uint8_t* rgba = rowOf(image, y);
         std::uint8_t* const luma = rowOf(planes, 0, y);
@@ -65,15 +49,14 @@ void toYuv444(const ImageView& image, YuvRange range, const YuvPlanes& planes) {
         std::uint8_t* const cr = rowOf(planes, 2, y);
         for (int x = 0; x < image.size.x; ++x, rgba += 4) {
             const int r = rgba[0], g = rgba[1], b = rgba[2];
-            luma[x] = static_cast<std::uint8_t>(m.y.of(r, g, b));
-            cb[x] = static_cast<std::uint8_t>(m.cb.of(r, g, b));
-            cr[x] = static_cast<std::uint8_t>(m.cr.of(r, g, b));
+            luma[x] = static_cast<std::uint8_t>(kY.of(r, g, b));
+            cb[x] = static_cast<std::uint8_t>(kCb.of(r, g, b));
+            cr[x] = static_cast<std::uint8_t>(kCr.of(r, g, b));
         }
     }
 }
 
-void toYuv420(const ImageView& image, YuvRange range, const YuvPlanes& planes) {
-    const Matrix m = matrixOf(range);
+void toYuv420(const ImageView& image, const YuvPlanes& planes) {
     const int last = image.size.x - 1;
     for (int y = 0; y < image.size.y; y += 2) {
         const std::array<const std::uint8_t*, 2> rows{rowOf(image, y), rowOf(image, y + 1)};
@@ -86,13 +69,13 @@ void toYuv420(const ImageView& image, YuvRange range, const YuvPlanes& planes) {
                 for (const int column : {x, x + 1}) {
                     const std::uint8_t* rgb = rows[static_cast<std::size_t>(row)] +
                                               std::ptrdiff_t{4} * std::min(column, last);
-                    luma[column] = static_cast<std::uint8_t>(m.y.of(rgb[0], rgb[1], rgb[2]));
+                    luma[column] = static_cast<std::uint8_t>(kY.of(rgb[0], rgb[1], rgb[2]));
                     for (std::size_t i = 0; i < 3; ++i) sum[i] += rgb[i];
                 }
             }
             const auto mean = [&sum](std::size_t i) { return (sum[i] + 2) / 4; };
-            cb[x / 2] = static_cast<std::uint8_t>(m.cb.of(mean(0), mean(1), mean(2)));
-            cr[x / 2] = static_cast<std::uint8_t>(m.cr.of(mean(0), mean(1), mean(2)));
+            cb[x / 2] = static_cast<std::uint8_t>(kCb.of(mean(0), mean(1), mean(2)));
+            cr[x / 2] = static_cast<std::uint8_t>(kCr.of(mean(0), mean(1), mean(2)));
         }
     }
 }

@@ -321,11 +321,13 @@ TEST_F(SessionTest, ADecoderWithWrongColoursIsNotUsed) {
 
 TEST_F(SessionTest, PinsOutOfRangeAreRefusedByName) {
     openView();
-    for (const auto& [pins, field] :
-         {std::pair{R"("quality":29)", "pins.quality"}, {R"("quality":101)", "pins.quality"},
-          {R"("scale":0.2)", "pins.scale"}, {R"("scale":"NaN")", "pins.scale"},
-          {R"("framesPerS":0)", "pins.frames_per_s"}, {R"("framesPerS":241)", "pins.frames_per_s"},
-          {R"("codec":"CODEC_WEBP")", "pins.codec"}}) {
+    for (const auto& [pins, field] : {std::pair{R"("quality":29)", "pins.quality"},
+                                      {R"("quality":101)", "pins.quality"},
+                                      {R"("scale":0.2)", "pins.scale"},
+                                      {R"("scale":"NaN")", "pins.scale"},
+                                      {R"("framesPerS":0)", "pins.frames_per_s"},
+                                      {R"("framesPerS":241)", "pins.frames_per_s"},
+                                      {R"("codec":"CODEC_WEBP")", "pins.codec"}}) {
         say(std::string{R"({"setPins":{"view":4,"pins":{)"} + pins + "}}}");
         EXPECT_NE(waitFor(R"("error")").find(field), std::string::npos) << pins;
     }

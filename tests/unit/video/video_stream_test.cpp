@@ -38,8 +38,8 @@ INSTANTIATE_TEST_SUITE_P(Codecs, VideoStreamTest,
                              return codec.param == VideoCodec::kVp9 ? "Vp9" : "H264";
                          });
 
-// The bounds are 2 dB below what was measured here: 42.8 (VP9) and 30.9 (H.264, whose halved colour
-// resolution is the limit).
+// Measured here: at least 41 dB of VP9 and 27.1 of H.264, whose halved colour resolution is the
+// limit; the bounds leave other builds of the encoders 3 and 1 dB.
 TEST_P(VideoStreamTest, EachPictureIsDecodedAtOnceAndIsClose) {
     AvDecoder decoder = this->decoder();
     for (int step = 0; step < 8; ++step) {
@@ -52,8 +52,6 @@ TEST_P(VideoStreamTest, EachPictureIsDecodedAtOnceAndIsClose) {
         EXPECT_EQ(decoded->chromaShift, isVp9() ? 0 : 1);
         EXPECT_GT(psnr(picture, decoded->rgb), isVp9() ? 38.0 : 26.0) << step;
         RecordProperty("psnr", std::to_string(psnr(picture, decoded->rgb)));
-        std::printf("step %d %.2f dB %zu bytes\n", step, psnr(picture, decoded->rgb),
-                    encoded.bytes.size());
     }
 }
 
@@ -62,7 +60,7 @@ TEST_P(VideoStreamTest, SaysHowItsColoursAreMeant) {
     const auto decoded = decoder.decode(encode(drawnPicture({64, 64})).bytes);
     ASSERT_TRUE(decoded.has_value());
     EXPECT_EQ(decoded->matrix, AVCOL_SPC_BT709);
-    EXPECT_EQ(decoded->range, isVp9() ? AVCOL_RANGE_JPEG : AVCOL_RANGE_MPEG);
+    EXPECT_EQ(decoded->range, AVCOL_RANGE_JPEG);
     if (isVp9()) return;  // Its header has no more.
     EXPECT_EQ(decoded->primaries, AVCOL_PRI_BT709);
     EXPECT_EQ(decoded->transfer, AVCOL_TRC_IEC61966_2_1);
@@ -89,7 +87,6 @@ TEST_P(VideoStreamTest, KeepsTheColoursOfThePatch) {
         }
     }
     EXPECT_LE(worst, 4);
-    std::printf("worst %d\n", worst);
     EXPECT_TRUE(checkPatch(middles).has_value());
 }
 
@@ -174,7 +171,6 @@ TEST(VideoEncoders, SayWhatWorksAndWhyTheRestDoesNot) {
         EXPECT_EQ(finding.works, finding.detail == "encodes") << finding.name;
         const auto created = VideoStream::create(finding.codec);
         EXPECT_TRUE(created.has_value() || !finding.works) << finding.name;
-        std::printf("%s %s\n", finding.name.c_str(), finding.detail.c_str());
     }
 }
 
