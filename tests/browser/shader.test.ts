@@ -203,7 +203,7 @@ describe("code on cross-sections and on a mesh", () => {
       },
       async () => {
         const count = client.page.getByRole("textbox", { name: "Samples over the depth" });
-        await count.fill("2");
+        await count.fill("2000");
         await count.press("Enter");
       },
     ];
@@ -211,7 +211,8 @@ describe("code on cross-sections and on a mesh", () => {
       await client.after(step);
       seen.add(await picture());
     }
-    expect(seen.size).toBeGreaterThanOrEqual(4);
+    // Cells are smaller than a 64th of the diagonal: only the last of these asks more often.
+    expect(seen.size).toBe(4);
     expect(client.complaints).toEqual([]);
   });
 });

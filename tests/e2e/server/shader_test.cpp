@@ -22,7 +22,7 @@ protected:
         ASSERT_TRUE(server_.ready()) << server_.log();
         client_ = std::make_unique<TestClient>(server_.port());
         ASSERT_TRUE(client_->ok());
-        client_->openView(1, "demo:volume", 512, 512);
+        client_->openView(1, "demo:volume", 256, 256);
         const auto opened = client_->waitFor(
             [](const v1::ServerMessage& message) { return message.has_view_opened(); });
         ASSERT_TRUE(opened) << server_.log();

@@ -124,7 +124,7 @@ TEST(IsolatingService, CodeThatHangsByAControlIsRefusedWithThatAlone) {
         workers::RenderRequest request = byCode(service, view, tag, kSlider);
         request.scene.layers[0].shader.controls = {{.name = "rounds", .value = rounds}};
         request.scene.layers[0].stepWorld = 1e-3;
-        request.size = {512, 512};
+        request.size = {256, 256};
         return request;
     };
     const auto good = service.draw(withLoop(1, 1, 0));

@@ -411,8 +411,11 @@ export class Session {
       this.mark("viewport");
     } else if (!this.#isListed(error.dataset)) {
       notify(this.#state, "error", text);
-      // Code that drew well has failed later: the view is back at what was there before it.
-      if (error.view === this.#view && /\.shader\./.test(error.field)) removeCode(this.#state);
+      // Code that drew well has failed by itself: the view is back at what was there before it.
+      const later = this.#sentEdit !== undefined && error.inputSeq > this.#sentEdit.inputSeq;
+      if (later && error.view === this.#view && /\.shader\./.test(error.field)) {
+        removeCode(this.#state);
+      }
     }
   }
 

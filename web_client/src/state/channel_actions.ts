@@ -1,5 +1,10 @@
 import { create } from "@bufbuild/protobuf";
-import { type ChannelMap, ChannelMapSchema, RayModel } from "../net/gen/volcast/v1/scene_pb";
+import {
+  type ChannelMap,
+  ChannelMapSchema,
+  RangeSchema,
+  RayModel,
+} from "../net/gen/volcast/v1/scene_pb";
 import { DatasetKind, type FieldInfo } from "../net/gen/volcast/v1/session_pb";
 import { resolved } from "../transfer/drawn_map";
 import { kMaxDrawnOpacity, opacityFromExtinction } from "../transfer/opacity";
@@ -83,8 +88,8 @@ export function drawTogether(state: AppState, together: boolean): void {
   const channels = fields.map((f, i) => channelOf(f.name, usualLook(f, i), false, length));
   const code = state.layer.value?.shader?.code;
   if (together && code) state.codeDraft.value ??= code;
-  // What several channels have no use for.
-  const rest = together ? { light: undefined, interval: undefined, shader: undefined } : {};
+  // What several channels have no use for; each has an interval of its own.
+  const rest = together ? { interval: undefined, shader: undefined } : {};
   changeLayer(state, { ...rest, channels: together ? channels : [] });
 }
 
@@ -103,8 +108,21 @@ export function changeChannel(
   const look = { ...lookOf(channel, length), ...rest };
   if (look.first === look.last) return;
   const seen = Object.keys(rest).length > 0;
-  const next = seen
-    ? channelOf(channel.field, look, hidden, length)
-    : create(ChannelMapSchema, { ...channel, hidden });
+  const map = seen ? channelOf(channel.field, look, hidden, length) : { ...channel, hidden };
+  const next = create(ChannelMapSchema, { ...map, interval: channel.interval });
   changeLayer(state, { channels: channels.map((c, i) => (i === index ? next : c)) }, gesture);
+}
+
+/** Draws a channel only where its values are in a range, or everywhere; a range in order is taken. */
+export function limitChannel(
+  state: AppState,
+  index: number,
+  range: { readonly min: number; readonly max: number } | undefined,
+): void {
+  const channels = state.layer.value?.channels ?? [];
+  if (range && !(range.min <= range.max)) return;
+  const interval = range && create(RangeSchema, range);
+  const limited = (channel: ChannelMap): ChannelMap =>
+    create(ChannelMapSchema, { ...channel, interval });
+  changeLayer(state, { channels: channels.map((c, i) => (i === index ? limited(c) : c)) });
 }

@@ -78,8 +78,8 @@ describe("light", () => {
     expect(canBeLit(layer())).toBe(true);
     switchLight(state, true);
     drawTogether(state, true);
-    expect(canBeLit(layer())).toBe(false);
-    expect(layer().light).toBeUndefined();
+    expect(canBeLit(layer())).toBe(true);
+    expect(layer().light).toBeDefined();
     drawTogether(state, false);
     changeLayer(state, { model: RayModel.MIP });
     expect(canBeLit(layer())).toBe(false);

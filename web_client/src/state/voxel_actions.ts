@@ -23,9 +23,9 @@ export const isAbsorbing = (layer: Layer): boolean =>
 /** The server's own values of what a light leaves out. */
 const kUsualLight = { ambient: 0.3, diffuse: 0.7, specular: 0.2, exponent: 32 } as const;
 
-/** Light needs one gradient and colours that do not come from code. */
+/** Light needs gradients, which what code emits has not. */
 export function canBeLit(layer: Layer): boolean {
-  return isAbsorbing(layer) && layer.channels.length === 0 && !layer.shader?.code;
+  return isAbsorbing(layer) && !layer.shader?.code;
 }
 
 export type LightNumbers = { -readonly [K in keyof typeof kUsualLight]: number };

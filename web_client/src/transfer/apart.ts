@@ -16,11 +16,11 @@ const white = { r: 1, g: 1, b: 1 } as const;
 
 type Numbers = readonly number[];
 
-/** True where `b` lies on the line from `a` to `c`: the rounding of a few operations is no corner. */
+/** True where `b` lies on the line from `a` to `c`: the server keeps float32, whose rounding is no corner. */
 function isStraight(a: Numbers, b: Numbers, c: Numbers, t: number): boolean {
   return b.every((x, k) => {
     const [from, to] = [a[k] ?? 0, c[k] ?? 0];
-    return Math.abs(x - (from + t * (to - from))) <= 1e-12 * Math.max(Math.abs(from), Math.abs(to));
+    return Math.abs(x - (from + t * (to - from))) <= 1e-6 * Math.max(Math.abs(from), Math.abs(to));
   });
 }
 
@@ -42,7 +42,7 @@ function corners(
   return kept;
 }
 
-/** Takes a map apart. Joined again it shows the same. */
+/** Takes a map apart. Joined again it shows the same, but for the rounding of float32. */
 export function takenApart(map: TransferFunction, axis: Axis = kStraight): Apart {
   const colours = corners(map, ({ colour: { r, g, b } }) => [r, g, b], axis);
   const opacities = corners(map, ({ extinction }) => [extinction], axis);

@@ -1,6 +1,12 @@
 import { endGesture } from "../state/actions";
 import type { AppState } from "../state/app_state";
-import { canDrawTogether, changeChannel, drawTogether, lookOf } from "../state/channel_actions";
+import {
+  canDrawTogether,
+  changeChannel,
+  drawTogether,
+  limitChannel,
+  lookOf,
+} from "../state/channel_actions";
 import { percentileOf } from "../transfer/percentiles";
 import { fromHex, toHex } from "../transfer/srgb";
 import { formatNumber, formatValue } from "./format";
@@ -8,6 +14,39 @@ import { Check, NumberField } from "./inputs";
 
 interface Props {
   readonly state: AppState;
+}
+
+/** Which values of a channel are drawn. */
+function ChannelInterval({ state, index }: Props & { readonly index: number }) {
+  const channel = state.layer.value?.channels[index];
+  if (!channel) return null;
+  const { first, last } = lookOf(channel, state.referenceLength.value);
+  const usual = { min: Math.min(first, last), max: Math.max(first, last) };
+  const now = channel.interval;
+  return (
+    <>
+      <Check
+        checked={now !== undefined}
+        take={(on) => limitChannel(state, index, on ? usual : undefined)}
+      >
+        Only a range of values
+      </Check>
+      {now && (
+        <div class="fields">
+          <NumberField
+            label="Lowest"
+            text={formatValue(now.min, now.max - now.min, 6)}
+            take={(min) => limitChannel(state, index, { min, max: now.max })}
+          />
+          <NumberField
+            label="Highest"
+            text={formatValue(now.max, now.max - now.min, 6)}
+            take={(max) => limitChannel(state, index, { min: now.min, max })}
+          />
+        </div>
+      )}
+    </>
+  );
 }
 
 /** One channel: shown or not, its colour, the range it fades in over, its opacity there. */
@@ -67,6 +106,7 @@ function ChannelRow({ state, index }: Props & { readonly index: number }) {
           Auto
         </button>
       </div>
+      <ChannelInterval state={state} index={index} />
     </fieldset>
   );
 }
