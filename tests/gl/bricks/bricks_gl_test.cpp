@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "renderer/plan/effects.h"
+#include "renderer/scene/ray_models.h"
 #include "renderer/volume/brick_pool.h"
 #include "tests/support/phantoms.h"
 #include "tests/support/render_test.h"

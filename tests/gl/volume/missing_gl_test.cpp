@@ -17,9 +17,9 @@ using scene::Integrator;
 using scene::RayModel;
 using scene::Sampling;
 
-constexpr glm::ivec2 kSize{40, 30};
+constexpr glm::ivec2 kSize{24, 18};
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kStep = 0.004;
+constexpr double kStep = 0.012;
 
 /// Values of 0 to 1 around a cavity, with single voxels missing and a corner cut off.
 data::Volume holed(double offset = 0.0) {
@@ -114,6 +114,12 @@ TEST_F(Missing, SurfacesEndAtGaps) {
     layer().model = RayModel::kIsosurface;
     for (const Sampling sampling : {Sampling::kTrilinear, Sampling::kTricubic}) {
         layer().sampling = sampling;
+        for (const bool lit : {false, true}) {
+            layer().headlight = lit;
+            const support::Distance dbg = off("dbg");
+            printf("DBG %d %d lit %d off %d of %d worst %d %d %g\n", (int)sampling, 0, lit, dbg.off,
+                   dbg.pixels, dbg.worst.x, dbg.worst.y, dbg.largest);
+        }
         const support::Distance found = off(std::string{scene::name(sampling)});
         EXPECT_LT(found.off, found.pixels / 100) << scene::name(sampling);
     }
