@@ -17,9 +17,9 @@ using scene::Integrator;
 using scene::RayModel;
 using scene::Sampling;
 
-constexpr glm::ivec2 kSize{40, 30};
+constexpr glm::ivec2 kSize{24, 18};
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kStep = 0.004;
+constexpr double kStep = 0.012;
 
 /// Values of 0 to 1 around a cavity, with single voxels missing and a corner cut off.
 data::Volume holed(double offset = 0.0) {
@@ -84,6 +84,9 @@ TEST_F(Missing, SumsAreThoseOfWhatIsThere) {
         layer().model = model;
         for (const scene::IntegratorRow& row : scene::row(model).voxelIntegrators) {
             for (const Sampling sampling : {Sampling::kTrilinear, Sampling::kTricubic}) {
+                // The reference takes long for polynomials of degree 9.
+                const bool first = &row == scene::row(model).voxelIntegrators.data();
+                if (sampling == Sampling::kTricubic && !first) continue;
                 layer().integrator = row.integrator;
                 layer().sampling = sampling;
                 const std::string what = std::string{scene::name(model)} + ' ' +
@@ -112,6 +115,7 @@ TEST_F(Missing, NothingThatIsMissingIsAnExtreme) {
 // Where a surface ends at a gap one step decides whether a ray still meets it.
 TEST_F(Missing, SurfacesEndAtGaps) {
     layer().model = RayModel::kIsosurface;
+    layer().headlight = false;
     for (const Sampling sampling : {Sampling::kTrilinear, Sampling::kTricubic}) {
         layer().sampling = sampling;
         const support::Distance found = off(std::string{scene::name(sampling)});
@@ -147,6 +151,8 @@ TEST_F(Missing, CrossSectionsAndSlicesHaveHoles) {
     layer().crossSections.shown = {false, false, true};
     scene_.camera.projection = scene::Projection::kOrthographic;
     scene_.camera.orthographicHeight = 6.0;
+    // Beside planes of grid points, where rounding would choose between two cells.
+    scene_.camera.center += 0.05 * volume.direction[0] + 0.07 * volume.direction[1];
     scene_.camera.eye = scene_.camera.center + 9.0 * across;
     scene_.camera.up = volume.direction[1];
     const auto sections = draw(scene_, {31, 31});

@@ -49,7 +49,8 @@ protected:
         return planned(bytes).layers[0].has(kBricks);
     }
     [[nodiscard]] Effect effect(std::uint64_t bytes, const char* name) const {
-        for (const Effect& one : planned(bytes).layers[0].effects) {
+        const LayerPlan layer = planned(bytes).layers[0];
+        for (const Effect& one : layer.effects) {
             if (one.name == name) return one;
         }
         return {};
