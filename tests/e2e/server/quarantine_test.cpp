@@ -11,13 +11,13 @@ using testing::HasSubstr;
 TEST(Quarantine, ASceneThatKillsTwiceIsRefusedByNameAndTheLastGoodOneStays) {
     const ServerProcess server{{"--frame-deadline-ms", "10000"}};  // With the demo.
     ASSERT_TRUE(server.ready()) << server.log();
-    const Looker looker{server.port(), TestClient::Form::kBinary, "demo:volume", 1024, 768};
+    const Looker looker{server.port(), TestClient::Form::kBinary, "demo:volume", 320, 240};
     const Looker other{server.port(), TestClient::Form::kJson, "demo:mesh"};
     ASSERT_TRUE(looker.before && other.before) << server.log();
 
-    // Some ten billion samples, none of which hides another.
+    // More than ten billion samples, none of which hides another.
     v1::Scene endless = looker.scene;
-    endless.mutable_layers(0)->set_step_world(1e-4);
+    endless.mutable_layers(0)->set_step_world(1e-5);
     for (auto& point : *endless.mutable_layers(0)->mutable_transfer_function()->mutable_points()) {
         point.set_extinction(1e-3F);
     }
