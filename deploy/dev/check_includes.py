@@ -64,7 +64,8 @@ HOMES = {  # what an angle include names -> who may name it
     r"EGL/": ["renderer/gpu"],
     r"epoxy/": GL_HOMES,
     r"tetgen|OpenImageIO": ["renderer/data/load", "tests"],
-    r"turbojpeg|libdeflate": ["server/video", "tests"],
+    r"turbojpeg|libdeflate|webp/|xxhash|libav|libsw": ["server/video", "tests"],
+    r"openssl/": ["server/session", "server/net", "tests"],
     r"seccomp|linux/landlock": ["renderer/base"],
 }
 INCLUDE = re.compile(r'^\s*#include\s+([<"])([^>"]+)[>"]', re.M)

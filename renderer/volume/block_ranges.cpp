@@ -33,9 +33,12 @@ std::vector<glm::vec2> alongX(glm::ivec3 size, int blocks, std::span<const std::
         std::memcpy(row.data(), voxels.data() + i * size.x * sizeof(T), size.x * sizeof(T));
         for (int block = 0; block < blocks; ++block) {
             const glm::ivec2 points = window(block, size.x);
-            const auto [low, high] =
-                std::minmax_element(row.begin() + points.x, row.begin() + points.y + 1);
-            ranges[i * blocks + block] = {static_cast<float>(*low), static_cast<float>(*high)};
+            glm::vec2 range = kEmpty;
+            for (int point = points.x; point <= points.y; ++point) {
+                const auto value = static_cast<float>(row[point]);
+                range = {std::min(range.x, value), std::max(range.y, value)};  // Not of NaN.
+            }
+            ranges[i * blocks + block] = range;
         }
     }
     return ranges;

@@ -15,7 +15,7 @@ namespace volcast::volume {
 inline constexpr int kRangeBlock = 4;
 inline constexpr int kRangeReach = 4;
 
-/// (smallest, largest) value of each block, x fastest.
+/// (smallest, largest) value of each block, x fastest; (infinity, -infinity) where there is none.
 std::vector<glm::vec2> blockRanges(const data::Volume& volume, const data::Channel& channel);
 
 }  // namespace volcast::volume

@@ -62,7 +62,9 @@ Result<gpu::Buffer> uploadBlocks(gpu::Device& device, const data::Volume& volume
 Result<gpu::Buffer> uploadRanges(gpu::Device& device, const data::Volume& volume,
                                  const data::Channel& channel, const scene::ScaleFunction& scale) {
     std::vector<glm::vec2> ranges = blockRanges(volume, channel);
-    for (glm::vec2& range : ranges) range = {scale.ofData(range.x), scale.ofData(range.y)};
+    for (glm::vec2& range : ranges) {
+        if (range.x <= range.y) range = {scale.ofData(range.x), scale.ofData(range.y)};
+    }
     const auto bytes = std::as_bytes(std::span{ranges});
     return gpu::Buffer::create(
         device, {.bytes = bytes.size(), .texels = gpu::TexelFormat::kR32F, .label = "block ranges"},

@@ -11,16 +11,16 @@ void Session::injectFault(const v1::InjectFault& message) {
         return send(errorMessage(v1::ERROR_CODE_NOT_PERMITTED,
                                  "this server was not started with --allow-faults", about));
     }
-    const View* view = findOrRefuse(message.view(), 0);
-    if (view == nullptr) return;
+    const Seat* seat = findOrRefuse(message.view(), 0);
+    if (seat == nullptr) return;
     const auto fault = worker::parseFault(message.fault());
     if (!fault) {
         return send(
             errorMessage(v1::ERROR_CODE_INVALID_ARGUMENT, fault.error().message, about, "fault"));
     }
-    spdlog::warn("event=fault connection={} view={} fault={}", number_, view->number,
+    spdlog::warn("event=fault connection={} view={} fault={}", number_, seat->view->id(),
                  worker::toText(*fault));
-    shared_.faults->inject(view->global, *fault);
+    shared_.faults->inject(seat->view->global(), *fault);
 }
 
 }  // namespace volcast::session

@@ -8,7 +8,8 @@
 // field has the level's value: it is on different sides at both ends of what is left. A line through
 // these ends gives the hit. A field that crosses a level and comes back within one step is not seen to
 // do so. Where kAdaptive steps are no longer equal, where kByVoxels pieces are those of voxels.
-// Constants: kPieces, kNarrows, kAdaptive, kByVoxels; kJitters: samples are not in the middle;
+// kCoarseSteps: coarser voxels have longer steps.
+// Constants: kPieces, kNarrows, kAdaptive, kByVoxels, kCoarseSteps; kJitters: samples are not in the middle;
 // kForesees: the model is told all ranges first; kSkipBricks, kEarlyStop, kMaxRaySamples;
 // kInterval: only values in an interval count; kLit: levels are lit from the eye; kShaded: samples are by layer.light;
 // those of lib/window.glsl and volume/voxels.glsl.
@@ -56,6 +57,13 @@ float placeOf(int i) {
     return kPieces ? float(i) : float(i) + share;
 }
 
+// Steps from `i` on that are taken as one; coarse voxels need fewer samples.
+int stepsAsOne(March march, int i, int beyond) {
+    if (!kCoarseSteps) return 1;
+    vec3 at = positionAt(march, distanceOf(march, float(i)));
+    return min(stepsASample(at, march.dt * march.direction), beyond - i);
+}
+
 #include "volume/ranges.glsl"
 
 bool skipsRange(RayState state, vec2 range) {
@@ -71,18 +79,24 @@ vec2 lightAt(Ray ray, March march, float at, vec4 matter) {
 
 #include "volume/pieces.glsl"
 
-// Takes step `i`; `value` is that of the step before, then that of this one. True: nothing behind
-// can show.
-bool takeStep(inout RayState state, inout float value, Ray ray, March march, int i) {
+// Takes `count` steps from `i` on as one; `value` is that of the step before, then that of this one.
+// True: nothing behind can show.
+bool takeStep(inout RayState state, inout float value, Ray ray, March march, int i, int count) {
     float front = value;
-    float at = distanceOf(march, kPieces ? float(i + 1) : placeOf(i));
+    float extent = float(count) * march.dt;
+    float at = distanceOf(march, float(i) + float(count) * (kPieces ? 1.0 : share));
     value = valueAt(positionAt(march, at));
     if (kPieces && !kNarrows) {
-        return takePiece(state, sampledPiece(front, value, march.dt, distanceOf(march, float(i))));
+        return takePiece(state, sampledPiece(front, value, extent, distanceOf(march, float(i))));
     }
     if (kInterval && (value < layer.gather.z || value > layer.gather.w)) return false;
+    if (lacksValue(value)) return false;
+    if (kPieces && lacksValue(front)) {
+        enterData(state, sampledPiece(value, value, 0.0, at));
+        return false;
+    }
     if (kShaded) pieceLight = lightAt(ray, march, at, matterAt(value, value));
-    Segment piece = sampledPiece(kPieces ? front : value, value, march.dt, distanceOf(march, float(i)));
+    Segment piece = sampledPiece(kPieces ? front : value, value, extent, distanceOf(march, float(i)));
     return stepRay(state, piece) && kEarlyStop;
 }
 
@@ -92,8 +106,9 @@ void narrow(inout RayState state, March march, int i, float back) {
     float front = valueAfter(march, float(i));
     float extent = march.dt;
     for (int halving = 0; halving < kHalvings; ++halving) {
+        float middle = valueAt(positionAt(march, distance + 0.5 * extent));
+        if (lacksValue(middle)) break;
         extent *= 0.5;
-        float middle = valueAt(positionAt(march, distance + extent));
         Segment nearer = sampledPiece(front, middle, extent, distance);
         enterData(state, nearer);
         bool met = stepRay(state, nearer);
@@ -111,7 +126,7 @@ bool takeSteps(inout RayState state, inout float value, Ray ray, March march, in
     bool finished = false;
     // Two a round where that is right: it halves what a round costs, and one waits for memory while
     // the other is looked up.
-    const bool kTwo = !kPieces && !kShaded && !kInterval && kSampling != kTricubic;
+    const bool kTwo = !kPieces && !kShaded && !kInterval && kSampling != kTricubic && !kMissing && !kCoarseSteps;
     for (; kTwo && i + 1 < beyond && !finished; i += 2) {
         float first = valueAfter(march, placeOf(i));
         value = valueAfter(march, placeOf(i + 1));
@@ -120,7 +135,11 @@ bool takeSteps(inout RayState state, inout float value, Ray ray, March march, in
         piece = sampledPiece(value, value, march.dt, distanceOf(march, float(i + 1)));
         finished = stepRay(state, piece) && kEarlyStop;
     }
-    for (; i < beyond && !finished; ++i) finished = takeStep(state, value, ray, march, i);
+    while (i < beyond && !finished) {
+        int count = stepsAsOne(march, i, beyond);
+        finished = takeStep(state, value, ray, march, i, count);
+        i += count;
+    }
     return finished;
 }
 
@@ -152,7 +171,9 @@ RayState marched(Ray ray, March march) {
     if (kByVoxels) return marchedByVoxels(ray, march);
     RayState state = beginRay(ray);
     float value = kPieces ? valueAfter(march, 0.0) : 0.0;
-    if (kPieces) enterData(state, sampledPiece(value, value, 0.0, march.begin));
+    if (kPieces && !lacksValue(value)) {
+        enterData(state, sampledPiece(value, value, 0.0, march.begin));
+    }
     bool finished = false;
     int i = 0;
     if (!kSkipBricks) finished = takeSteps(state, value, ray, march, i, march.steps);
@@ -166,7 +187,8 @@ RayState marched(Ray ray, March march) {
         if (skips && skipsRange(state, rangeOfSteps(march, i, together))) {
             i = beyond;
             if (kPieces) value = valueAfter(march, float(i));
-            if (kPieces && !kNarrows) {
+            // Behind a gap the field may be anywhere.
+            if (kPieces && (!kNarrows || kMissing) && !lacksValue(value)) {
                 enterData(state, sampledPiece(value, value, 0.0, distanceOf(march, float(i))));
             }
         } else {

@@ -6,6 +6,7 @@
 // integers as its 4 bytes have room for, and texels lie in blocks of 4^3 grid points.
 #include "lib/layer.glsl"
 #include "lib/unit.glsl"
+#include "volume/missing.glsl"
 
 // One of these is read; both are at one texture unit.
 layout(binding = kVoxelUnit) uniform sampler3D voxelTexture;
@@ -132,6 +133,11 @@ float valueAt(vec3 at) {
     return trilinear(at);
 }
 
+// Steps of a ray that a sample stands for, from `at` on: all voxels are equally fine.
+int stepsASample(vec3 at, vec3 step) {
+    return 1;
+}
+
 // The direction in which the field rises most, of length 1 in the world; 0 where it is flat. By
 // central differences over a grid interval to each side; at a face of the box one side is shorter.
 vec3 normalAt(vec3 at) {
@@ -141,6 +147,11 @@ vec3 normalAt(vec3 at) {
                       valueAt(vec3(at.xy, high.z)));
     vec3 below = vec3(valueAt(vec3(low.x, at.yz)), valueAt(vec3(at.x, low.y, at.z)),
                       valueAt(vec3(at.xy, low.z)));
+    if (kMissing) {
+        float own = valueAt(at);
+        standIn(high, above, at, own);
+        standIn(low, below, at, own);
+    }
     // Quarters, because the difference of two large values may not be a number.
     vec3 slope = (0.25 * above - 0.25 * below) / max(high - low, vec3(0.5));
     return unit(transpose(mat3(layer.gridFromData)) * unit(slope));
