@@ -66,8 +66,7 @@ private:
 
 using Draw = Detour<epoxy_glDrawArraysInstanced>;
 using Link = Detour<epoxy_glLinkProgram>;
-using Fill = Detour<epoxy_glNamedBufferSubData>;
-using Allocate = Detour<epoxy_glNamedBufferStorage>;
+using Store = Detour<epoxy_glNamedBufferStorage>;
 using Status = Detour<epoxy_glGetGraphicsResetStatus>;
 using Read = Detour<epoxy_glReadPixels>;
 
@@ -81,10 +80,10 @@ void injectDriverFault(DriverFault fault, std::uint32_t after) {
             return Draw::set([](GLenum, GLint, GLsizei, GLsizei) { hang(); }, after);
         case DriverFault::kHangInLink: return Link::set([](GLuint) { hang(); }, after);
         case DriverFault::kExitInUpload:
-            return Fill::set(
-                [](GLuint, GLintptr, GLsizeiptr, const void*) { ::_exit(EXIT_FAILURE); }, after);
+            return Store::set(
+                [](GLuint, GLsizeiptr, const void*, GLbitfield) { ::_exit(EXIT_FAILURE); }, after);
         case DriverFault::kOutOfMemory:
-            return Allocate::set(
+            return Store::set(
                 [](GLuint buffer, GLsizeiptr, const void*, GLbitfield flags) {
                     glNamedBufferStorage(buffer, kTooManyBytes, nullptr, flags);
                 },

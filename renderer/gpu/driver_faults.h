@@ -9,7 +9,7 @@ enum class DriverFault {
     kCrashInDraw,   ///< SIGSEGV.
     kHangInDraw,    ///< The call never returns.
     kHangInLink,    ///< The call never returns.
-    kExitInUpload,  ///< The process ends while a buffer is filled.
+    kExitInUpload,  ///< The process ends while a buffer is made and filled.
     kOutOfMemory,   ///< Memory for a buffer is refused, with the driver's own error.
     kReset,         ///< The context says that it was reset.
     kReadsNothing,  ///< Pixels are read back without error, and not written.

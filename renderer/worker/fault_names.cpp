@@ -32,7 +32,7 @@ constexpr std::array kRows{
     Row{Fault::kGarbage, FaultyProcess::kWorker, "garbage",
         "an answer is replaced by bytes that are no message"},
     Row{Fault::kExitInUpload, FaultyProcess::kWorker, "exit-in-upload",
-        "the worker exits while it fills a GL buffer"},
+        "the worker exits while it uploads a GL buffer"},
     Row{Fault::kSpareExit, FaultyProcess::kSpare, "spare-exit",
         "the spare exits while it builds shaders or waits"},
     Row{Fault::kLoseGpu, FaultyProcess::kWorker, "lose-gpu",

@@ -226,7 +226,7 @@ void addServeCommand(CLI::App& app, int& exitCode) {
         ->capture_default_str();
     command
         .add_option("--gpu", settings->render.gpu,
-                    "EGL device as `volcast doctor` lists it; none: surfaceless")
+                    "EGL device as `volcast doctor` lists it, or software; none: surfaceless")
         ->envname("VOLCAST_GPU");
     command.add_option("--client-dir", settings->listen.clientFolder,
                        "Built web client; none: web_client beside the build's folder");

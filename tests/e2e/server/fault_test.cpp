@@ -13,7 +13,7 @@ namespace {
 using testing::HasSubstr;
 using Clock = std::chrono::steady_clock;
 
-const std::vector<std::string> kFaulty{"--allow-faults", "--frame-deadline-ms", "6000"};
+const std::vector<std::string> kFaulty{"--allow-faults", "--frame-deadline-ms", "10000"};
 
 struct Loss {
     const char* fault;
@@ -29,6 +29,9 @@ TEST_P(WorkerFault, IsAPauseForAllAndNothingIsLost) {
     const Looker other{stage.server->port(), TestClient::Form::kJson};
     ASSERT_TRUE(looker.before && other.before) << stage.server->log();
     ASSERT_TRUE(stage.waitForSpare());
+    // A very busy machine may have cost workers their first frames.
+    const int losses = stage.number("losses");
+    const auto generation = static_cast<std::uint32_t>(stage.number("generation"));
 
     inject(*looker.client, GetParam().fault);
     const auto start = Clock::now();
@@ -39,27 +42,27 @@ TEST_P(WorkerFault, IsAPauseForAllAndNothingIsLost) {
     const std::chrono::duration<double, std::milli> took = Clock::now() - start;
     std::cout << "[   TIME   ] " << GetParam().fault << ": input to the next correct picture "
               << took.count() << " ms\n";
-    EXPECT_EQ(next->header.worker_generation(), 2U);
-    EXPECT_EQ(stage.number("losses"), 1);
+    EXPECT_EQ(next->header.worker_generation(), generation + 1);
+    EXPECT_EQ(stage.number("losses"), losses + 1);
     EXPECT_THAT(std::string{stage.readiness().at("last_loss").as_string()},
                 HasSubstr(GetParam().said));
     looker.expectSamePictureAgain(4);
 
     ASSERT_TRUE(other.client->waitForState(1, v1::VIEW_STATE_RECOVERING));
-    const auto theirs = other.client->waitForFrame([](const TestFrame& frame) {
-        return frame.header.worker_generation() == 2 && frame.header.lossless();
+    const auto theirs = other.client->waitForFrame([&](const TestFrame& frame) {
+        return frame.header.worker_generation() == generation + 1 && frame.header.lossless();
     });
     ASSERT_TRUE(theirs.has_value()) << stage.server->log();
     EXPECT_EQ(theirs->header.input_seq(), 2U);
     EXPECT_EQ(decode(*theirs).pixels, decode(*other.before).pixels);
     EXPECT_EQ(other.client->socket().closeCode(), 0);
-    EXPECT_EQ(stage.number("losses"), 1) << stage.server->log();
+    EXPECT_EQ(stage.number("losses"), losses + 1) << stage.server->log();
 }
 
 INSTANTIATE_TEST_SUITE_P(
     All, WorkerFault,
-    testing::Values(Loss{"crash", "signal 11"}, Loss{"hang-in-draw", "6000 ms for a frame"},
-                    Loss{"hang-in-compile", "6000 ms for a frame"},
+    testing::Values(Loss{"crash", "signal 11"}, Loss{"hang-in-draw", "10000 ms for a frame"},
+                    Loss{"hang-in-compile", "10000 ms for a frame"},
                     Loss{"gpu-reset", "lost its GL device"}, Loss{"lose-gpu", "lost its GL device"},
                     Loss{"unwritten-slot", "announced a picture and wrote none"},
                     Loss{"wrong-size", "drew a picture nobody asked for"},
@@ -76,6 +79,7 @@ TEST(Faults, WithoutGpuMemoryAViewIsToldAndLivesOn) {
     ASSERT_TRUE(stage.server->ready()) << stage.server->log();
     const Looker looker{stage.server->port(), TestClient::Form::kBinary};
     ASSERT_TRUE(looker.before) << stage.server->log();
+    const int losses = stage.number("losses");
     inject(*looker.client, "out-of-gpu-memory");
     looker.show(looker.otherScene(), 3);
     const auto error = looker.client->waitForError();
@@ -87,7 +91,7 @@ TEST(Faults, WithoutGpuMemoryAViewIsToldAndLivesOn) {
     // There is memory again.
     looker.show(looker.otherScene(), 6);
     EXPECT_TRUE(looker.client->waitForFrame(1, 6).has_value()) << stage.server->log();
-    EXPECT_EQ(stage.number("losses"), 0);
+    EXPECT_EQ(stage.number("losses"), losses);
 }
 
 TEST(Faults, TheSpareDiesAndNobodyNotices) {
@@ -97,14 +101,15 @@ TEST(Faults, TheSpareDiesAndNobodyNotices) {
     ASSERT_TRUE(looker.before) << stage.server->log();
     ASSERT_TRUE(stage.waitForSpare());
     const int spare = stage.number("spare_pid");
+    const int generation = stage.number("generation");
     inject(*looker.client, "spare-exit");
     ASSERT_TRUE(eventually([&] {
         const auto now = stage.readiness();
         return now.at("spare_ready").as_bool() && now.at("spare_pid").to_number<int>() != spare;
     })) << stage.server->log();
     looker.expectSamePictureAgain(3);
-    EXPECT_EQ(stage.number("generation"), 1);
-    for (const v1::ServerMessage& message : looker.client->messages) {
+    EXPECT_EQ(stage.number("generation"), generation);
+    for (const v1::ServerMessage& message : looker.client->messages) {  // Since the first picture.
         EXPECT_FALSE(message.has_view_status() &&
                      message.view_status().state() == v1::VIEW_STATE_RECOVERING);
     }
@@ -119,6 +124,7 @@ TEST_P(ImportFault, CostsOneImportAndNoView) {
     ASSERT_TRUE(stage.server->ready()) << stage.server->log();
     const Looker looker{stage.server->port(), TestClient::Form::kBinary};
     ASSERT_TRUE(looker.before) << stage.server->log();
+    const int losses = stage.number("losses");
 
     inject(*looker.client, GetParam().fault);
     v1::ClientMessage open;
@@ -131,7 +137,7 @@ TEST_P(ImportFault, CostsOneImportAndNoView) {
     looker.client->send(open);
     EXPECT_TRUE(looker.client->waitForDataset("again.node", v1::DATASET_STATE_READY).has_value())
         << stage.server->log();
-    EXPECT_EQ(stage.number("losses"), 0);
+    EXPECT_EQ(stage.number("losses"), losses);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, ImportFault,
@@ -147,13 +153,14 @@ TEST(Faults, AreRefusedByAServerThatWasNotToldToAllowThem) {
     ASSERT_TRUE(stage.server->ready()) << stage.server->log();
     const Looker looker{stage.server->port(), TestClient::Form::kJson};
     ASSERT_TRUE(looker.before) << stage.server->log();
+    const int losses = stage.number("losses");
     inject(*looker.client, "crash");
     const auto error = looker.client->waitForError();
     ASSERT_TRUE(error.has_value());
     EXPECT_EQ(error->code(), v1::ERROR_CODE_NOT_PERMITTED);
     EXPECT_THAT(error->message(), HasSubstr("--allow-faults"));
     looker.expectSamePictureAgain(3);
-    EXPECT_EQ(stage.number("losses"), 0);
+    EXPECT_EQ(stage.number("losses"), losses);
 }
 
 TEST(Faults, WithAnUnknownNameOrViewAreRefusedByName) {
