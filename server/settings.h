@@ -1,5 +1,7 @@
 #pragma once
 
+#include <chrono>
+#include <cstddef>
 #include <string>
 
 #include "server/net/server.h"
@@ -18,6 +20,12 @@ struct ServeSettings {
     unsigned importsAtOnce = 1;
     unsigned encodeThreads = 2;
     session::SessionLimits limits;
+    bool allowFaults = false;  ///< Clients may let workers and imports fail.
+    std::chrono::seconds keepViews{60};
+    std::size_t maxOpenViews = 1024;  ///< In the whole server.
+    std::size_t maxPeople = 256;      ///< In one view.
+    std::string linkKeyFile;          ///< Empty: a key in stateFolder, or one of this run.
+    std::string stateFolder;          ///< Empty: views end with the server.
     std::string logLevel = "info";
     std::string serverName;  ///< Told to clients, with the version.
     std::string sourceUrl;   ///< Told to clients: the AGPL asks for it.

@@ -19,8 +19,8 @@ DRAWING = MODEL + ["renderer/plan", "renderer/gpu", "renderer/shading"]
 MEASUREMENT = "renderer/accuracy/measurement"  # Plain structs, for the server too.
 # Both ends of the channel between server and worker; no GL.
 MESSAGES = [f"renderer/worker/{part}" for part in
-            ("channel", "exit_codes", "frame_message", "measure_message", "pick_message", "scene_json",
-             "scene_message", "slot_layout", "user_shader_message")]
+            ("channel", "exit_codes", "fault_names", "frame_message", "measure_message", "pick_message",
+             "scene_json", "scene_message", "slot_layout", "user_shader_message")]
 WORKERS = MODEL + MESSAGES + ["renderer/plan", MEASUREMENT, "server/workers"]
 SESSION = WORKERS + ["protocol", "server/video", "server/session", "server/settings"]
 
@@ -52,7 +52,8 @@ ALLOWED = {
     "server/commands": MODEL + MESSAGES + ["renderer/plan", MEASUREMENT, "protocol", "server"],
     "server/settings": BASE + ["server"],
     "server/main": ["server/commands"],
-    "server/import": BASE + ["renderer/data", "renderer/worker/channel", "server/import"],
+    "server/import": BASE + ["renderer/data", "renderer/worker/channel",
+                                         "renderer/worker/fault_names", "server/import"],
     "tests": [""],
 }
 GL_HOMES = ["renderer/gpu", "renderer/shading", "renderer/mesh", "renderer/volume",
@@ -63,7 +64,8 @@ HOMES = {  # what an angle include names -> who may name it
     r"EGL/": ["renderer/gpu"],
     r"epoxy/": GL_HOMES,
     r"tetgen|OpenImageIO": ["renderer/data/load", "tests"],
-    r"turbojpeg|libdeflate": ["server/video", "tests"],
+    r"turbojpeg|libdeflate|webp/|xxhash|libav|libsw": ["server/video", "tests"],
+    r"openssl/": ["server/session", "server/net", "tests"],
     r"seccomp|linux/landlock": ["renderer/base"],
 }
 INCLUDE = re.compile(r'^\s*#include\s+([<"])([^>"]+)[>"]', re.M)

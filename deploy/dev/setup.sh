@@ -15,7 +15,7 @@ packages=(
     libegl-dev libegl1 libegl-mesa0 libgl1-mesa-dri libgl-dev libepoxy-dev libglm-dev
     libopenimageio-dev libtet1.5-dev libboost1.81-dev libprotobuf-dev libturbojpeg0-dev
     libdeflate-dev libcli11-dev libspdlog-dev libseccomp-dev glslang-dev libssl-dev
-    libavcodec-dev libavutil-dev libswscale-dev libwebp-dev libxxhash-dev prometheus-cpp-dev
+    libavcodec-dev libavutil-dev libwebp-dev libxxhash-dev prometheus-cpp-dev
     # read by volcast-import
     python3-vtk9 python3-meshio python3-h5py python3-numpy
     # the build, googletest and benchmark included: one configuration for users and tests

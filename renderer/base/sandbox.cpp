@@ -93,7 +93,9 @@ Result<void> enterSandbox(const SandboxPolicy& policy) {
                           .mayExecute = policy.mayExecute});
     if (!done) return done;
     insideSandbox = true;
-    return applySeccomp({.mayExecute = policy.mayExecute, .mayUseThreads = policy.mayUseThreads});
+    return applySeccomp({.mayExecute = policy.mayExecute,
+                         .mayUseThreads = policy.mayUseThreads,
+                         .ownPid = ::getpid()});
 }
 
 }  // namespace volcast::base

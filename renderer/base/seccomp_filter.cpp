@@ -13,6 +13,7 @@
 #include <sys/socket.h>
 #include <sys/syscall.h>
 #include <unistd.h>
+#include <utility>
 
 #include <seccomp.h>
 
@@ -34,7 +35,8 @@ constexpr std::array kAlwaysRefused{
     "socket", "bind", "connect", "listen", "accept", "accept4",
     // Other processes.
     "ptrace", "process_vm_readv", "process_vm_writev", "process_madvise", "kcmp", "pidfd_getfd",
-    "perf_event_open", "shmget", "semget", "msgget", "mq_open",
+    "process_mrelease", "migrate_pages", "move_pages", "perf_event_open", "shmget", "semget",
+    "msgget", "mq_open",
     // Mounts and namespaces.
     "mount", "umount2", "pivot_root", "chroot", "open_tree", "move_mount", "fsopen", "fsconfig",
     "fsmount", "fspick", "mount_setattr", "unshare", "setns", "name_to_handle_at",
@@ -50,7 +52,20 @@ constexpr std::array kAlwaysRefused{
     "setresgid", "setgroups", "setfsuid", "setfsgid", "capset",
     // Changes to files that Landlock does not cover.
     "chmod", "fchmod", "fchmodat", "chown", "fchown", "lchown", "fchownat", "truncate", "setxattr",
-    "lsetxattr", "fsetxattr", "removexattr", "lremovexattr", "fremovexattr"};
+    "lsetxattr", "fsetxattr", "removexattr", "lremovexattr", "fremovexattr",
+    // What others do with their files.
+    "inotify_init", "inotify_init1", "fanotify_init"};
+
+/// Newer calls of the same kinds, which libseccomp does not know by name; numbers are the same on
+/// all architectures: fchmodat2, setxattrat, removexattrat, open_tree_attr, file_setattr.
+constexpr std::array kNewerRefused{452, 463, 466, 467, 469};
+
+/// Takes a process id, 0 for the caller: others' limits and priorities are not ours to change.
+constexpr std::array kOnSelfAlone{
+    std::pair{"prlimit64", 0U},          std::pair{"setpriority", 1U},
+    std::pair{"ioprio_set", 1U},         std::pair{"sched_setaffinity", 0U},
+    std::pair{"sched_setscheduler", 0U}, std::pair{"sched_setparam", 0U},
+    std::pair{"sched_setattr", 0U}};
 
 constexpr std::array kProcessCalls{"execve",
                                    "execveat",
@@ -108,8 +123,13 @@ void addConditional(const Filter& filter, const SeccompRules& rules, Status& sta
         refuse(filter, kRefuse, "open", argument(1, SCMP_CMP_MASKED_EQ, kMask, kReadAndTruncate)));
     status(refuse(filter, kPretendMissing, "openat2"));
     status(refuse(filter, kPretendMissing, "clone3"));
+    for (const auto& [name, process] : kOnSelfAlone) {
+        status(refuse(filter, kRefuse, name, argument(process, SCMP_CMP_NE, 0)));
+    }
     if (!rules.mayExecute) {
         for (const char* name : kProcessCalls) status(refuse(filter, kRefuse, name));
+        const auto self = static_cast<std::uint64_t>(rules.ownPid);
+        status(refuse(filter, kRefuse, "tgkill", argument(0, SCMP_CMP_NE, self)));
     }
     if (!rules.mayUseThreads && !rules.mayExecute) {
         status(refuse(filter, kRefuse, "clone"));
@@ -132,6 +152,9 @@ Result<Filter> buildFilter(const SeccompRules& rules) {
     status(seccomp_attr_set(filter.get(), SCMP_FLTATR_CTL_TSYNC, 1));
     status(seccomp_attr_set(filter.get(), SCMP_FLTATR_CTL_OPTIMIZE, 2));
     for (const char* name : kAlwaysRefused) status(refuse(filter, kRefuse, name));
+    for (const int number : kNewerRefused) {
+        status(seccomp_rule_add(filter.get(), kRefuse, number, 0));
+    }
     addConditional(filter, rules, status);
     auto built = status.result("cannot build the filter");
     if (!built) return built.error();

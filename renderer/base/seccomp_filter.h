@@ -11,6 +11,7 @@ namespace volcast::base {
 struct SeccompRules {
     bool mayExecute = false;  ///< execve, new processes and signals to them.
     bool mayUseThreads = true;
+    int ownPid = 0;  ///< Where it may not execute: it may signal (abort) itself; 0: nobody.
 };
 
 /// True where the kernel can refuse system calls with an error code.

@@ -11,6 +11,13 @@ namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
+template <class T>
+constexpr T kHighest = std::numeric_limits<T>::has_infinity ? std::numeric_limits<T>::infinity()
+                                                            : std::numeric_limits<T>::max();
+template <class T>
+constexpr T kLowest = std::numeric_limits<T>::has_infinity ? -std::numeric_limits<T>::infinity()
+                                                           : std::numeric_limits<T>::lowest();
+
 /// The same as a loop over bricks, but in the order of the voxels: each slice is read once.
 template <class T>
 void findRanges(const T* voxels, glm::ivec3 size, glm::ivec3 grid, std::vector<glm::vec2>& ranges) {
@@ -24,12 +31,13 @@ void findRanges(const T* voxels, glm::ivec3 size, glm::ivec3 grid, std::vector<g
             for (int bx = 0; bx < grid.x; ++bx) {
                 const int first = bx * Volume::kBrickSize;
                 const int last = std::min(first + Volume::kBrickSize, size.x - 1);
-                T low = row[first];
-                T high = row[first];
-                for (int x = first + 1; x <= last; ++x) {
-                    low = std::min(low, row[x]);
+                T low = kHighest<T>;
+                T high = kLowest<T>;
+                for (int x = first; x <= last; ++x) {
+                    low = std::min(low, row[x]);  // In this order NaN is passed over.
                     high = std::max(high, row[x]);
                 }
+                if (low > high) continue;
                 for (int bz = firstOf(z); bz <= lastZ; ++bz) {
                     for (int by = firstOf(y); by <= lastY; ++by) {
                         glm::vec2& range =

@@ -11,7 +11,7 @@
 namespace volcast::data {
 
 /// Smallest and largest value of each brick of `level`, by the level's `voxels` alone; see
-/// Volume::brickGrid.
+/// Volume::brickGrid and ChannelLevel::bricks.
 std::vector<glm::vec2> brickRanges(const Volume& volume, int level,
                                    std::span<const std::byte> voxels);
 

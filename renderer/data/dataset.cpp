@@ -50,7 +50,8 @@ FieldSummary summarizeChannel(const Channel& channel, VoxelType type) {
             .association = Association::kVertex,
             .range = channel.range,
             .steps = 1,
-            .spread = spreadOf(std::move(samples), channel.range)};
+            .spread = spreadOf(std::move(samples), channel.range),
+            .voxelsWithoutValue = channel.voxelsWithoutValue};
 }
 
 void grow(Box& box, const glm::dvec3& point) {
@@ -111,6 +112,16 @@ DatasetSummary summarizeVolume(const Volume& volume) {
     return summary;
 }
 
+std::string emptyVoxels(const DatasetSummary& summary, const FieldSummary& field) {
+    const auto all = static_cast<std::uint64_t>(summary.voxels.x) *
+                     static_cast<std::uint64_t>(summary.voxels.y) *
+                     static_cast<std::uint64_t>(summary.voxels.z);
+    const bool one = field.voxelsWithoutValue == 1;
+    return std::to_string(field.voxelsWithoutValue) + " of " + std::to_string(all) +
+           " voxels of \"" + field.name + (one ? "\" is NaN and is" : "\" are NaN and are") +
+           " drawn as empty";
+}
+
 }  // namespace
 
 DatasetSummary summarize(const Dataset& dataset) {
@@ -121,6 +132,7 @@ DatasetSummary summarize(const Dataset& dataset) {
 std::vector<std::string> warningsOf(const DatasetSummary& summary) {
     std::vector<std::string> warnings;
     for (const FieldSummary& field : summary.fields) {
+        if (field.voxelsWithoutValue > 0) warnings.push_back(emptyVoxels(summary, field));
         if (field.cellsWithoutValue == 0) continue;
         const bool one = field.cellsWithoutValue == 1;
         warnings.push_back(std::to_string(field.cellsWithoutValue) +

@@ -29,6 +29,7 @@ struct FieldSummary {
     int steps = 1;
     Spread spread = {};                   ///< Of samples of its values.
     std::uint64_t cellsWithoutValue = 0;  ///< Cells of a mesh with a NaN in any step.
+    std::uint64_t voxelsWithoutValue = 0;
 };
 
 /// What is worth knowing of a dataset without holding it; all that plans and clients need.

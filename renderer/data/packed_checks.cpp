@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <set>
 
 #include "renderer/data/mesh_builder.h"
@@ -158,23 +159,26 @@ Result<void> checkField(const Field& field, const Mesh& mesh) {
     return {};
 }
 
+/// `missing`: voxels may be NaN.
 template <class T>
-bool voxelsWithin(std::span<const std::byte> bytes, const Range& range) {
+bool voxelsWithin(std::span<const std::byte> bytes, const Range& range, bool missing) {
     // Sections are aligned to 64 bytes.
     const std::span<const T> voxels{reinterpret_cast<const T*>(bytes.data()),
                                     bytes.size() / sizeof(T)};
-    return std::all_of(voxels.begin(), voxels.end(), [&range](T voxel) {
+    return std::all_of(voxels.begin(), voxels.end(), [&range, missing](T voxel) {
         const auto value = static_cast<float>(voxel);
-        return value >= range.min && value <= range.max;
+        return (value >= range.min && value <= range.max) || (missing && std::isnan(value));
     });
 }
 
-bool voxelsWithin(VoxelType type, std::span<const std::byte> bytes, const Range& range) {
+bool voxelsWithin(VoxelType type, std::span<const std::byte> bytes, const Channel& channel) {
+    const Range& range = channel.range;
+    const bool missing = channel.voxelsWithoutValue > 0;
     switch (type) {
-        case VoxelType::kU8: return voxelsWithin<std::uint8_t>(bytes, range);
-        case VoxelType::kU16: return voxelsWithin<std::uint16_t>(bytes, range);
-        case VoxelType::kI16: return voxelsWithin<std::int16_t>(bytes, range);
-        case VoxelType::kF32: return voxelsWithin<float>(bytes, range);
+        case VoxelType::kU8: return voxelsWithin<std::uint8_t>(bytes, range, missing);
+        case VoxelType::kU16: return voxelsWithin<std::uint16_t>(bytes, range, missing);
+        case VoxelType::kI16: return voxelsWithin<std::int16_t>(bytes, range, missing);
+        case VoxelType::kF32: return voxelsWithin<float>(bytes, range, missing);
     }
     return false;
 }
@@ -218,12 +222,15 @@ Result<void> checkLevel(const Channel& channel, const Volume& volume, int level,
     if (bricks.size() != product(volume.brickGrid(level))) {
         return damaged(where + "wrong number of bricks");
     }
+    constexpr float kInfinity = std::numeric_limits<float>::infinity();
     for (const glm::vec2& brick : bricks) {
+        const bool without = brick == glm::vec2{kInfinity, -kInfinity};
+        if (without && channel.voxelsWithoutValue > 0) continue;
         if (!(brick.x >= channel.range.min && brick.x <= brick.y && brick.y <= channel.range.max)) {
             return damaged(where + "a brick is damaged");
         }
     }
-    if (trust == Trust::kNone && !voxelsWithin(volume.type, voxels.span(), channel.range)) {
+    if (trust == Trust::kNone && !voxelsWithin(volume.type, voxels.span(), channel)) {
         return damaged(where + "a voxel lies outside the channel's range");
     }
     return {};
@@ -235,6 +242,12 @@ Result<void> checkChannel(const Channel& channel, const Volume& volume, Trust tr
     const int coarser = pyramidLevels(volume.size);
     if (channel.coarser.size() != static_cast<std::size_t>(coarser)) {
         return damaged(where + "wrong number of levels");
+    }
+    if (trust == Trust::kNone) {
+        const auto counted = countWithoutValue(volume, channel.name, channel.voxels.span());
+        if (!counted || *counted != channel.voxelsWithoutValue) {
+            return damaged(where + "wrong number of voxels without a value");
+        }
     }
     auto finest = checkLevel(channel, volume, 0, channel.voxels, channel.bricks, trust);
     if (!finest) return finest;

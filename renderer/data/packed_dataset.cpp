@@ -59,8 +59,12 @@ Result<base::FileDescriptor> packVolume(const Volume& volume) {
         .channels = volume.channels.size(),
         .coarserLevels = static_cast<std::uint64_t>(volume.coarserLevels())};
     writer.addOne(packed::Tag::kVolume, header);
+    std::vector<packed::ChannelHeader> headers;  // The writer refers to them.
+    headers.reserve(volume.channels.size());
     for (const Channel& channel : volume.channels) {
-        writer.addOne(packed::Tag::kChannel, channel.range);
+        headers.push_back(
+            {.range = channel.range, .voxelsWithoutValue = channel.voxelsWithoutValue});
+        writer.addOne(packed::Tag::kChannel, headers.back());
         writer.addText(channel.name);
         writer.addText(channel.unit);
         writer.add(packed::Tag::kVoxels, channel.voxels.span());
@@ -224,13 +228,17 @@ Result<Dataset> readVolume(Reader& reader, Trust trust) {
     for (std::uint64_t i = 0; i < header->channels; ++i) {
         Channel channel;
         Error error;
-        if (!store(reader.takeOne<Range>(packed::Tag::kChannel), channel.range, error) ||
+        packed::ChannelHeader channelHeader;
+        if (!store(reader.takeOne<packed::ChannelHeader>(packed::Tag::kChannel), channelHeader,
+                   error) ||
             !store(reader.takeText(), channel.name, error) ||
             !store(reader.takeText(), channel.unit, error) ||
             !store(reader.take<std::byte>(packed::Tag::kVoxels), channel.voxels, error) ||
             !store(reader.take<glm::vec2>(packed::Tag::kBricks), channel.bricks, error)) {
             return error;
         }
+        channel.range = channelHeader.range;
+        channel.voxelsWithoutValue = channelHeader.voxelsWithoutValue;
         for (std::uint64_t level = 0; level < header->coarserLevels; ++level) {
             ChannelLevel& coarser = channel.coarser.emplace_back();
             if (!store(reader.take<std::byte>(packed::Tag::kVoxels), coarser.voxels, error) ||

@@ -70,6 +70,11 @@ struct FieldHeader {
     std::uint64_t cellsWithoutValue = 0;
 };
 
+struct ChannelHeader {
+    Range range;
+    std::uint64_t voxelsWithoutValue = 0;
+};
+
 struct VolumeHeader {
     glm::dvec3 spacing{1.0};
     glm::dvec3 origin{0.0};

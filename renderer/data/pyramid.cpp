@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <type_traits>
 
 #include "renderer/data/brick_ranges.h"
@@ -63,7 +64,45 @@ T rounded(float value, const Range& range) {
     }
 }
 
-template <class T>
+/// Sums of values and of their weights along a row of fine points, with a point to spare at each
+/// end. Weights are kept where some values are missing; else they add up to 1.
+template <bool SomeMissing>
+struct Row {
+    std::vector<float> sums, weights;
+
+    explicit Row(int points) : sums(static_cast<std::size_t>(points) + 2) {
+        if (SomeMissing) weights.resize(sums.size());
+    }
+    void clear() {
+        std::ranges::fill(sums, 0.0F);
+        std::ranges::fill(weights, 0.0F);
+    }
+    template <class T>
+    void add(const T* values, float weight) {
+        for (std::size_t x = 1; x + 1 < sums.size(); ++x) {
+            const auto value = static_cast<float>(values[x - 1]);
+            if constexpr (SomeMissing) {
+                const bool there = !std::isnan(value);
+                weights[x] += there ? weight : 0.0F;
+                sums[x] += there ? weight * value : 0.0F;
+            } else {
+                sums[x] += weight * value;
+            }
+        }
+    }
+    [[nodiscard]] float mean(const Stencil& stencil) const {
+        const auto along = [&stencil](const std::vector<float>& row) {
+            const float* at = row.data() + stencil.first + 1;
+            return stencil.weights[0] * at[0] + stencil.weights[1] * at[1] +
+                   stencil.weights[2] * at[2];
+        };
+        if constexpr (!SomeMissing) return along(sums);
+        const float weight = along(weights);
+        return weight > 0.0F ? along(sums) / weight : std::numeric_limits<float>::quiet_NaN();
+    }
+};
+
+template <bool SomeMissing, class T>
 void halveAs(const Volume& volume, int level, const Range& range, const T* fine, T* coarse,
              const std::function<void(double)>& progress) {
     const glm::ivec3 from = volume.levelSize(level - 1);
@@ -71,30 +110,19 @@ void halveAs(const Volume& volume, int level, const Range& range, const T* fine,
     const auto xs = stencilsOf(volume.size.x, from.x, to.x, level);
     const auto ys = stencilsOf(volume.size.y, from.y, to.y, level);
     const auto zs = stencilsOf(volume.size.z, from.z, to.z, level);
-    // A row of means across y and z, with a point to spare at each end.
-    std::vector<float> row(static_cast<std::size_t>(from.x) + 2);
+    Row<SomeMissing> row{from.x};  // Of means across y and z.
     for (int z = 0; z < to.z; ++z) {
         for (int y = 0; y < to.y; ++y) {
-            std::fill(row.begin(), row.end(), 0.0F);
+            row.clear();
             visit(zs[static_cast<std::size_t>(z)], [&](int fineZ, float weightZ) {
                 visit(ys[static_cast<std::size_t>(y)], [&](int fineY, float weightY) {
-                    const T* values =
-                        fine + (static_cast<std::size_t>(fineZ) * from.y + fineY) * from.x;
-                    const float weight = weightZ * weightY;
-                    for (int x = 0; x < from.x; ++x) {
-                        row[static_cast<std::size_t>(x) + 1] +=
-                            weight * static_cast<float>(values[x]);
-                    }
+                    row.add(fine + (static_cast<std::size_t>(fineZ) * from.y + fineY) * from.x,
+                            weightZ * weightY);
                 });
             });
             T* target = coarse + (static_cast<std::size_t>(z) * to.y + y) * to.x;
             for (int x = 0; x < to.x; ++x) {
-                const Stencil& stencil = xs[static_cast<std::size_t>(x)];
-                const float* values = row.data() + stencil.first + 1;
-                target[x] =
-                    rounded<T>(stencil.weights[0] * values[0] + stencil.weights[1] * values[1] +
-                                   stencil.weights[2] * values[2],
-                               range);
+                target[x] = rounded<T>(row.mean(xs[static_cast<std::size_t>(x)]), range);
             }
         }
         progress(static_cast<double>(z + 1) / to.z);
@@ -118,12 +146,19 @@ std::size_t pyramidBytes(const Volume& volume) noexcept {
     return voxels * voxelBytes(volume.type);
 }
 
-void halve(const Volume& volume, int level, const Range& range, std::span<const std::byte> fine,
-           std::span<std::byte> coarse, const std::function<void(double)>& progress) {
+void halve(const Volume& volume, int level, const KnownVoxels& known,
+           std::span<const std::byte> fine, std::span<std::byte> coarse,
+           const std::function<void(double)>& progress) {
     withVoxelType(volume.type, [&](auto kind) {
         using T = decltype(kind);
-        halveAs(volume, level, range, reinterpret_cast<const T*>(fine.data()),
-                reinterpret_cast<T*>(coarse.data()), progress);
+        const auto* from = reinterpret_cast<const T*>(fine.data());
+        auto* to = reinterpret_cast<T*>(coarse.data());
+        if constexpr (std::is_floating_point_v<T>) {
+            if (known.someMissing) {
+                return halveAs<true>(volume, level, known.range, from, to, progress);
+            }
+        }
+        halveAs<false>(volume, level, known.range, from, to, progress);
     });
 }
 
@@ -133,12 +168,13 @@ std::vector<ChannelLevel> buildPyramid(const Volume& volume, const Channel& chan
     std::span<const glm::vec2> bricks = channel.bricks.span();
     std::vector<ChannelLevel> levels;
     const int count = pyramidLevels(volume.size);
+    const KnownVoxels known{.range = channel.range, .someMissing = channel.voxelsWithoutValue > 0};
     double done = 0.0;
     for (int level = 1; level <= count; ++level) {
         std::vector<std::byte> coarse(product(volume.levelSize(level)) * voxelBytes(volume.type));
         // Each level takes an eighth of the time of the one before.
         const double share = (1.0 - done) * 7.0 / 8.0;
-        halve(volume, level, channel.range, voxels, coarse,
+        halve(volume, level, known, voxels, coarse,
               [&](double part) { progress(done + part * share); });
         done += share;
         std::vector<glm::vec2> ranges = brickRanges(volume, level, coarse);

@@ -23,10 +23,17 @@ inline constexpr int kCoarsestIntervals = 32;
 /// Bytes of all coarser levels of one channel of `volume`.
 [[nodiscard]] std::size_t pyramidBytes(const Volume& volume) noexcept;
 
+/// What is known of all voxels of a channel before there is a pyramid.
+struct KnownVoxels {
+    Range range;
+    bool someMissing = false;  ///< NaN among them.
+};
+
 /// Fills `coarse`, the voxels of `level`, from those of the level before: see Volume for how.
-/// `range`: the channel's. `progress` is told the share that is done now and then.
-void halve(const Volume& volume, int level, const Range& range, std::span<const std::byte> fine,
-           std::span<std::byte> coarse, const std::function<void(double)>& progress);
+/// `known`: the channel. `progress` is told the share that is done now and then.
+void halve(const Volume& volume, int level, const KnownVoxels& known,
+           std::span<const std::byte> fine, std::span<std::byte> coarse,
+           const std::function<void(double)>& progress);
 
 /// All coarser levels of a channel that is complete but for them.
 std::vector<ChannelLevel> buildPyramid(const Volume& volume, const Channel& channel,

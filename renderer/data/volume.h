@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -27,17 +28,20 @@ enum class VoxelType { kU8, kU16, kI16, kF32 };
 /// A channel at a part of its resolution; see Volume::levelSize.
 struct ChannelLevel {
     base::Array<std::byte> voxels;  ///< As Channel::voxels, of the level's size.
-    /// (min, max) a brick, of the level's own values in it and of all finer ones beneath it.
+    /// (min, max) a brick, of the level's own values in it and of all finer ones beneath it;
+    /// (infinity, -infinity) where none of them is a number.
     base::Array<glm::vec2> bricks;
 };
 
-/// One scalar of a volume.
+/// One scalar of a volume. Voxels of float32 may be NaN: there is no value, and nothing is drawn
+/// wherever interpolation would use one. All others are finite.
 struct Channel {
     std::string name;
     std::string unit;
-    Range range;
+    Range range;                           ///< Of all that are numbers.
+    std::uint64_t voxelsWithoutValue = 0;  ///< NaN, of level 0; never all of them.
     base::Array<std::byte> voxels;      ///< size.x * size.y * size.z values, x fastest, no padding.
-    base::Array<glm::vec2> bricks;      ///< (min, max) a brick, x fastest; see brickGrid().
+    base::Array<glm::vec2> bricks;      ///< As ChannelLevel::bricks, x fastest; see brickGrid().
     std::vector<ChannelLevel> coarser;  ///< Levels 1, 2, ... of the pyramid; none: it has none.
 };
 
@@ -51,7 +55,8 @@ struct Channel {
 /// A value is the mean of the finer level's trilinear field over a box about its point, reaching to
 /// the nearer of its neighbours on each axis (weights 1/4, 1/2, 1/4 where both are as near; on a
 /// face nowhere but along the face). A linear field is therefore the same on all levels, without a
-/// shift; integers are rounded to the nearest.
+/// shift; integers are rounded to the nearest. Voxels without a value are left out of the mean, and
+/// a point around which there is no other is NaN.
 struct Volume {
     static constexpr int kBrickSize = 16;  ///< Grid intervals a brick, along each axis.
 

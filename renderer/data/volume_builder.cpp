@@ -68,12 +68,13 @@ std::size_t channelBytes(const glm::ivec3& size, VoxelType type) {
     return static_cast<std::size_t>(size.x) * size.y * size.z * voxelBytes(type);
 }
 
-Channel buildChannel(ChannelInput input, const Volume& volume) {
+Channel buildChannel(ChannelInput input, const Volume& volume, std::uint64_t withoutValue) {
     std::vector<glm::vec2> bricks = brickRanges(volume, 0, input.voxels);
     const Range range = rangeOf(bricks);
     return Channel{.name = std::move(input.name),
                    .unit = std::move(input.unit),
                    .range = range,
+                   .voxelsWithoutValue = withoutValue,
                    .voxels = std::move(input.voxels),
                    .bricks = std::move(bricks),
                    .coarser = {}};
@@ -141,21 +142,28 @@ Result<Volume> buildGrid(VolumeInput& input) {
                   .channels = {}};
 }
 
-Result<void> checkFinite(const Volume& volume, const std::string& channel,
-                         std::span<const std::byte> bytes) {
-    if (volume.type != VoxelType::kF32) return {};
+Result<std::uint64_t> countWithoutValue(const Volume& volume, const std::string& channel,
+                                        std::span<const std::byte> bytes) {
+    if (volume.type != VoxelType::kF32) return std::uint64_t{0};
     // Voxels are aligned: they start a vector or a section of a packed dataset.
     const std::span voxels{reinterpret_cast<const float*>(bytes.data()),
                            bytes.size() / sizeof(float)};
-    const auto bad = std::ranges::find_if(voxels, [](float v) { return !std::isfinite(v); });
-    if (bad == voxels.end()) return {};
+    const auto count = static_cast<std::uint64_t>(
+        std::ranges::count_if(voxels, [](float v) { return std::isnan(v); }));
+    if (count == voxels.size()) {
+        return fail(ErrorCode::kInvalidArgument, "channel '" + channel + "': has no value, all " +
+                                                     std::to_string(count) + " voxels are NaN");
+    }
+    const auto bad = std::ranges::find_if(voxels, [](float v) { return std::isinf(v); });
+    if (bad == voxels.end()) return count;
     const auto i = static_cast<std::size_t>(bad - voxels.begin());
     const auto width = static_cast<std::size_t>(volume.size.x);
     const auto height = static_cast<std::size_t>(volume.size.y);
     return fail(ErrorCode::kInvalidArgument,
                 "channel '" + channel + "': voxel (" + std::to_string(i % width) + ", " +
                     std::to_string(i / width % height) + ", " + std::to_string(i / width / height) +
-                    ") is " + std::to_string(static_cast<double>(*bad)) + ", not a finite number");
+                    ") is " + std::to_string(static_cast<double>(*bad)) +
+                    "; voxels are finite numbers, or NaN where there is no value");
 }
 
 Range rangeOf(std::span<const glm::vec2> bricks) {
@@ -171,10 +179,9 @@ Result<Volume> buildVolume(VolumeInput input, const std::function<void(double)>&
     if (!volume) return volume;
     if (const auto checked = checkBytes(input); !checked) return checked.error();
     for (ChannelInput& channel : input.channels) {
-        if (auto finite = checkFinite(*volume, channel.name, channel.voxels); !finite) {
-            return finite.error();
-        }
-        volume->channels.push_back(buildChannel(std::move(channel), *volume));
+        const auto withoutValue = countWithoutValue(*volume, channel.name, channel.voxels);
+        if (!withoutValue) return withoutValue.error();
+        volume->channels.push_back(buildChannel(std::move(channel), *volume, *withoutValue));
     }
     if (pyramidLevels(volume->size) == 0) return volume;
     const auto count = static_cast<double>(volume->channels.size());

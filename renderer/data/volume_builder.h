@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <span>
 #include <string>
@@ -39,19 +40,22 @@ inline constexpr std::size_t kMaxChannels = 256;
 /// Errors: as buildVolume(), but for voxels.
 Result<Volume> buildGrid(VolumeInput& input);
 
-/// Errors: kInvalidArgument naming the first voxel that is not finite.
-Result<void> checkFinite(const Volume& volume, const std::string& channel,
-                         std::span<const std::byte> voxels);
+/// How many of a channel's voxels are NaN.
+///
+/// Errors: kInvalidArgument (all are, or one is infinite, which is named).
+Result<std::uint64_t> countWithoutValue(const Volume& volume, const std::string& channel,
+                                        std::span<const std::byte> voxels);
 
-/// The range of a channel with these bricks, of which there is at least one.
+/// The range of a channel with these bricks, one of which has a value.
 Range rangeOf(std::span<const glm::vec2> bricks);
 
 /// Checks voxels, finds their ranges and bricks, and builds the pyramid of a large volume;
 /// `pyramidProgress` (may be empty) is told the share of the last that is done.
 ///
-/// Errors: kInvalidArgument (a size below 1, spacing that is not > 0, a number that is not finite,
-/// a wrong number of bytes, no channel, a doubled or empty channel name), kUnsupported (axes that
-/// are not perpendicular), kLimitExceeded (size or channels).
+/// Errors: kInvalidArgument (a size below 1, spacing that is not > 0, a place or direction that is
+/// not finite, a voxel that is infinite, a channel of NaN alone, a wrong number of bytes, no
+/// channel, a doubled or empty channel name), kUnsupported (axes that are not perpendicular),
+/// kLimitExceeded (size or channels).
 Result<Volume> buildVolume(VolumeInput input,
                            const std::function<void(double)>& pyramidProgress = {});
 

@@ -38,7 +38,7 @@ Result<VolumePacker> VolumePacker::create(VolumeInput input) {
         sections.unit = std::move(channel.unit);
     }
     for (ChannelSections& channel : packer.channels_) {
-        channel.range = writer.reserve<Range>(packed::Tag::kChannel, 1);
+        channel.header = writer.reserve<packed::ChannelHeader>(packed::Tag::kChannel, 1);
         writer.addText(channel.name);
         writer.addText(channel.unit);
         for (int level = 0; level <= coarser; ++level) {
@@ -56,10 +56,13 @@ Result<VolumePacker> VolumePacker::create(VolumeInput input) {
 Result<void> VolumePacker::finishChannel(const ChannelSections& channel,
                                          const std::function<void(double)>& progress) {
     std::span<const std::byte> voxels = writer_.section<std::byte>(channel.levels[0].voxels);
-    if (auto finite = checkFinite(volume_, channel.name, voxels); !finite) return finite;
+    const auto withoutValue = countWithoutValue(volume_, channel.name, voxels);
+    if (!withoutValue) return withoutValue.error();
     std::vector<glm::vec2> ranges = brickRanges(volume_, 0, voxels);
     const Range range = rangeOf(ranges);
-    writer_.section<Range>(channel.range)[0] = range;
+    writer_.section<packed::ChannelHeader>(channel.header)[0] = {
+        .range = range, .voxelsWithoutValue = *withoutValue};
+    const KnownVoxels known{.range = range, .someMissing = *withoutValue > 0};
     double done = 0.0;
     for (std::size_t i = 0;; ++i) {
         const std::span bricks = writer_.section<glm::vec2>(channel.levels[i].bricks);
@@ -69,7 +72,7 @@ Result<void> VolumePacker::finishChannel(const ChannelSections& channel,
         const std::span coarse = writer_.section<std::byte>(channel.levels[i + 1].voxels);
         // Each level takes an eighth of the time of the one before.
         const double share = (1.0 - done) * 7.0 / 8.0;
-        halve(volume_, level, range, voxels, coarse,
+        halve(volume_, level, known, voxels, coarse,
               [&](double part) { progress(done + part * share); });
         done += share;
         ranges = brickRanges(volume_, level, coarse);

@@ -33,7 +33,7 @@ public:
 
     /// Checks the voxels, finds ranges, builds the pyramid, seals. `pyramidProgress` may be empty.
     ///
-    /// Errors: kInvalidArgument (a voxel that is not finite), kIo.
+    /// Errors: kInvalidArgument (as countWithoutValue()), kIo.
     Result<base::FileDescriptor> finish(const std::function<void(double)>& pyramidProgress);
 
 private:
@@ -43,7 +43,7 @@ private:
     };
     struct ChannelSections {
         std::string name, unit;
-        std::size_t range = 0;
+        std::size_t header = 0;
         std::vector<Level> levels;  ///< The finest first.
     };
     VolumePacker() = default;

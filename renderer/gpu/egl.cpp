@@ -3,6 +3,7 @@
 #include <array>
 #include <charconv>
 
+#include "renderer/base/software_gpu.h"
 #include "renderer/gpu/device.h"
 
 namespace volcast::gpu {
@@ -121,7 +122,11 @@ Result<OpenDisplay> openDisplay(const std::string& gpu) {
     const auto [end, error] = std::from_chars(gpu.data(), gpu.data() + gpu.size(), index);
     if (error == std::errc{} && end == gpu.data() + gpu.size()) return openDevice(index);
     for (const EglDeviceInfo& info : listEgl().deviceList) {
-        if (info.path == gpu) return openDevice(info.index);
+        if (gpu == base::kSoftwareGpu ? info.software : info.path == gpu)
+            return openDevice(info.index);
+    }
+    if (gpu == base::kSoftwareGpu) {
+        return fail(ErrorCode::kNotFound, "EGL lists no software device (is Mesa installed?)");
     }
     return fail(ErrorCode::kNotFound, "GPU \"" + gpu + "\": no EGL device has that file or index");
 }

@@ -8,6 +8,7 @@
 #include "renderer/mesh/mesh_buffers.h"
 #include "renderer/mesh/shared.h"
 #include "renderer/mesh/walk_cache.h"
+#include "renderer/mesh/walk_user.h"
 #include "renderer/plan/effects.h"
 #include "renderer/scene/ray_models.h"
 #include "renderer/shading/psi_table.h"
@@ -19,6 +20,7 @@ namespace {
 // Models and integrators that take a piece in parts, where the map bends.
 bool splitsPieces(const WalkTraits& traits) {
     using scene::RayModel;
+    if (traits.code) return true;
     const bool integrates = traits.model == RayModel::kVolume || traits.model == RayModel::kXray ||
                             traits.model == RayModel::kSplat;
     return integrates && traits.integrator == scene::Integrator::kExact;
@@ -34,8 +36,18 @@ constexpr int kIterationsOfSplits = 1 + kCellsARound + kPartsARound;
 constexpr int kRays = 8;
 constexpr int kMaxDraws = 16'384;  // Of one picture; 6 million cells on a ray at least.
 
-int maxRounds(bool convex, bool splits) {
-    return kMostIterations / ((convex ? 1 : kRays) * (splits ? kIterationsOfSplits : 1));
+/// Those of a code's own loops may come on top of it.
+int maxRounds(const WalkTraits& traits) {
+    const int iterations = kMostIterations / (traits.convex ? 1 : kRays);
+    if (traits.code) return iterations - iterationsAPart(*traits.code);
+    return iterations / (splitsPieces(traits) ? kIterationsOfSplits : 1);
+}
+
+std::optional<CodeTraits> codeOf(const UserInputs* user) {
+    if (user == nullptr) return std::nullopt;
+    CodeTraits code{.texts = user->texts, .othersAt = {}, .iterations = user->iterations};
+    for (const FieldGpu* field : user->others) code.othersAt.push_back(valuesAt(field));
+    return code;
 }
 
 bool isOneColour(const plan::LayerPlan& plan) {
@@ -56,7 +68,8 @@ WalkTraits traitsOf(const DrawInputs& inputs) {
             .convex = inputs.mesh->convex,
             .clipsAtStart = inputs.planeDepth <= 0.0,
             .earlyStop = inputs.plan->has(plan::kEarlyStop),
-            .countsSteps = inputs.countsSteps};
+            .countsSteps = inputs.countsSteps,
+            .code = codeOf(inputs.user)};
 }
 
 /// A piece's front values are the back values of the piece before.
@@ -109,8 +122,7 @@ Result<void> drawLongRays(const DrawInputs& inputs, WalkCache& cache) {
     }
     return fail(ErrorCode::kLimitExceeded,
                 "mesh: a ray meets more than " + std::to_string(kMaxDraws) + " times " +
-                    std::to_string(maxRounds(traits.convex, splitsPieces(traits))) +
-                    " cells or boundary faces");
+                    std::to_string(maxRounds(traits)) + " cells or boundary faces");
 }
 
 }  // namespace
@@ -129,8 +141,10 @@ shading::Recipe walkRecipe(const WalkTraits& traits, std::vector<shading::Consta
                       {"kLit", traits.lit},
                       {"kClipsAtStart", traits.clipsAtStart},
                       {"kEarlyStop", traits.earlyStop},
-                      {"kMaxRounds", maxRounds(traits.convex, splitsPieces(traits))},
+                      {"kMaxRounds", maxRounds(traits)},
                       {"kSplits", splitsPieces(traits)},
+                      {"kPartByPart", traits.code.has_value()},
+                      {"kIterationsAPart", traits.code ? iterationsAPart(*traits.code) : 1},
                       {"kCellsARound", kCellsARound},
                       {"kPartsARound", kPartsARound},
                       {"kCounts", traits.counts},
@@ -147,6 +161,7 @@ shading::Recipe walkRecipe(const WalkTraits& traits, std::vector<shading::Consta
         recipe.segment = "segment/line_exact.glsl";
         recipe.model = "model/opacity.glsl";
     }
+    if (traits.code) showByCode(recipe, traits);
     return recipe;
 }
 

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -75,6 +76,13 @@ protected:
     WalkState() = default;
 };
 
+/// What a draw needs besides where a user's code says what samples show.
+struct UserInputs {
+    std::vector<shading::TextChunk> texts;  ///< Its chunks that are no files.
+    std::vector<const FieldGpu*> others;    ///< Fields that it reads besides the layer's own.
+    int iterations = 0;                     ///< Of its loops, for one sample.
+};
+
 /// One layer's draw. All pointers are borrowed for the call.
 ///
 /// Bound by the caller: the layer block (kLayerBinding, see shaders/shared/layer_block.glsl), the
@@ -100,6 +108,7 @@ struct DrawInputs {
     int clipPlanes = 0;                     ///< In the layer block.
     std::span<const float> levels = {};     ///< Of an isosurface, ascending, as `field` is scaled.
     bool countsSteps = false;               ///< The walk's, by another program.
+    const UserInputs* user = nullptr;       ///< Code instead of the map, bound at kMapUnit.
     const gpu::Buffer* psiTable = nullptr;  ///< Where the integrator reads it, else null.
     /// Rays: colour 0, 32F, premultiplied, blended "over" (PassState{.blend = Blend::kOver}).
     /// Opaque models: colour 0 as before (opaque: alpha 1), colour 1 R32F the distance along the
@@ -119,6 +128,13 @@ Result<void> drawWalk(const DrawInputs& inputs, WalkState& state);
 /// Errors: kShaderBuild.
 Result<void> drawSurface(const DrawInputs& inputs);
 
+/// What tells the programs of users' codes apart.
+struct CodeTraits {
+    std::vector<shading::TextChunk> texts;
+    std::vector<int> othersAt;  ///< As WalkTraits::valuesAt, of UserInputs::others.
+    int iterations = 0;
+};
+
 /// What tells the programs of drawWalk() apart.
 struct WalkTraits {
     scene::RayModel model = scene::RayModel::kVolume;
@@ -133,9 +149,10 @@ struct WalkTraits {
     bool convex = true;         ///< A line enters the mesh once at most.
     bool clipsAtStart = false;  ///< Rays may start within the mesh.
     bool earlyStop = true;
-    bool counts = false;       ///< Rays may need more steps than one draw has.
-    bool resumes = false;      ///< They go on where the last draw ended.
-    bool countsSteps = false;  ///< For WalkState::steps().
+    bool counts = false;                  ///< Rays may need more steps than one draw has.
+    bool resumes = false;                 ///< They go on where the last draw ended.
+    bool countsSteps = false;             ///< For WalkState::steps().
+    std::optional<CodeTraits> code = {};  ///< volume, mip, minip: instead of the map.
 };
 
 /// The program of drawWalk(). `constants`: as in DrawInputs.

@@ -7,6 +7,7 @@
 
 #include "renderer/mesh/mesh_buffers.h"
 #include "renderer/mesh/shared.h"
+#include "renderer/mesh/walk_user.h"
 #include "renderer/shading/shared.h"
 
 namespace volcast::mesh {
@@ -118,6 +119,7 @@ void WalkCache::bind(const DrawInputs& inputs) const {
         FieldBuffer::of(*inputs.density).values.bindTexels(shared::kDensityUnit);
     }
     if (inputs.psiTable != nullptr) inputs.psiTable->bindTexels(shading::shared::kPsiTableUnit);
+    if (inputs.user != nullptr) bindOtherFields(*inputs.user);
     heads_.bind(shared::kEntryUnit);
     if (nodes_.valid()) nodes_.bindTexels(shared::kEntryNodeUnit);
     counts_.bindStorage(shared::kCountStorage);

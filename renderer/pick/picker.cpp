@@ -4,8 +4,10 @@
 #include <utility>
 #include <variant>
 
+#include "renderer/pick/jitter.h"
 #include "renderer/pick/mesh_look.h"
 #include "renderer/pick/voxel_look.h"
+#include "renderer/plan/effects.h"
 #include "renderer/plan/plan.h"
 #include "renderer/reference/reference.h"
 #include "renderer/scene/ray_models.h"
@@ -81,8 +83,10 @@ void Picker::planSteps(const scene::Scene& scene) {
         summaries.emplace(layer.dataset, known_[layer.dataset].summary);
     }
     const plan::FramePlan plan = plan::plan(scene, summaries, {});
-    steps_.clear();
-    for (const plan::LayerPlan& layer : plan.layers) steps_.push_back(layer.stepWorld);
+    sampled_.clear();
+    for (const plan::LayerPlan& layer : plan.layers) {
+        sampled_.push_back({.stepWorld = layer.stepWorld, .jitters = layer.has(plan::kJitter)});
+    }
 }
 
 Result<std::optional<scene::Picked>> Picker::pick(const scene::Scene& scene,
@@ -100,7 +104,9 @@ Result<std::optional<scene::Picked>> Picker::pick(const scene::Scene& scene,
     const auto look = [&](std::size_t i) -> std::optional<Look> {
         const data::Dataset& dataset = *known_[layers_[i].dataset].dataset;
         if (const auto* volume = std::get_if<data::Volume>(&dataset)) {
-            return lookAt(*volume, layers_[i], steps_[i], ray, span);
+            Steps steps{.world = sampled_[i].stepWorld};
+            if (sampled_[i].jitters) steps.share = jitterOf(pixel, *layers_[i].jitter);
+            return lookAt(*volume, layers_[i], steps, ray, span);
         }
         return lookAt(meshLayers_[i], ray, span, scratch_);
     };

@@ -48,7 +48,12 @@ private:
     reference::Bodies bodies_;
     std::vector<scene::Layer> layers_;
     std::vector<reference::LayerData> meshLayers_;  ///< As many as layers_; of meshes alone filled.
-    std::vector<double> steps_;                     ///< Likewise; of voxels, for the last camera.
+    /// Likewise; of voxels, for the last camera.
+    struct Sampled {
+        double stepWorld = 0.0;
+        bool jitters = false;
+    };
+    std::vector<Sampled> sampled_;
     reference::Scratch scratch_;
     bool prepared_ = false;
 };

@@ -50,7 +50,7 @@ double VoxelField::between(const glm::dvec3& grid) const {
             for (int i = begin; i < 4 - begin; ++i) {
                 const auto weight = x[static_cast<std::size_t>(i)] *
                                     y[static_cast<std::size_t>(j)] * z[static_cast<std::size_t>(k)];
-                if (weight != 0.0) sum += weight * voxel(low + glm::ivec3{i, j, k} - 1);
+                sum += weight * voxel(low + glm::ivec3{i, j, k} - 1);  // NaN, whatever its weight.
             }
         }
     }

@@ -15,7 +15,7 @@ public:
     VoxelField(const data::Volume& volume, const data::Channel& channel, scene::Sampling sampling)
         : volume_{&volume}, channel_{&channel}, sampling_{sampling} {}
 
-    /// The value at grid coordinates within the box.
+    /// The value at grid coordinates within the box; NaN where a voxel that counts has none.
     [[nodiscard]] double at(const glm::dvec3& grid) const;
     [[nodiscard]] const data::Channel& channel() const noexcept { return *channel_; }
 

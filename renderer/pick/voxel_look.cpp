@@ -27,6 +27,7 @@ using reference::Span;
 struct Drawn {
     VoxelField field;
     LinearMap map;
+    std::optional<data::Range> interval;
 };
 
 const data::Channel* channelNamed(const data::Volume& volume, const std::string& name) {
@@ -41,15 +42,18 @@ LinearMap mapOf(const data::TransferFunction& map) {
 
 std::vector<Drawn> drawnOf(const data::Volume& volume, const scene::Layer& layer) {
     std::vector<Drawn> drawn;
-    const auto add = [&](const std::string& name, const data::TransferFunction& map) {
+    const auto add = [&](const std::string& name, const data::TransferFunction& map,
+                         const std::optional<data::Range>& interval) {
         const data::Channel* channel = channelNamed(volume, name);
         if (channel == nullptr) return;
-        drawn.push_back({.field = VoxelField{volume, *channel, layer.sampling}, .map = mapOf(map)});
+        drawn.push_back({.field = VoxelField{volume, *channel, layer.sampling},
+                         .map = mapOf(map),
+                         .interval = interval});
     };
     for (const scene::ChannelMap& channel : layer.channels) {
-        if (channel.visible) add(channel.field, channel.map);
+        if (channel.visible) add(channel.field, channel.map, channel.interval);
     }
-    if (layer.channels.empty()) add(layer.field, layer.map);
+    if (layer.channels.empty()) add(layer.field, layer.map, layer.interval);
     return drawn;
 }
 
@@ -79,9 +83,10 @@ Span withinBox(const GridRay& ray, const glm::dvec3& last, Span span) {
     return span;
 }
 
-bool counts(const scene::Layer& layer, double value) {
-    if (!layer.interval) return true;
-    return value >= layer.interval->min && value <= layer.interval->max;
+/// Not where a voxel without a value is used.
+bool counts(const Drawn& drawn, double value) {
+    if (std::isnan(value)) return false;
+    return !drawn.interval || (value >= drawn.interval->min && value <= drawn.interval->max);
 }
 
 scene::Picked pickedAt(const data::Volume& volume, const std::vector<Drawn>& drawn, const Ray& ray,
@@ -96,9 +101,9 @@ scene::Picked pickedAt(const data::Volume& volume, const std::vector<Drawn>& dra
     const auto winner = static_cast<std::size_t>(place.item);
     picked.values.push_back({.field = drawn[winner].field.channel().name, .value = place.f});
     for (std::size_t i = 0; i < drawn.size(); ++i) {
-        if (i == winner) continue;
-        picked.values.push_back(
-            {.field = drawn[i].field.channel().name, .value = drawn[i].field.at(at)});
+        const double value = drawn[i].field.at(at);
+        if (i == winner || std::isnan(value)) continue;
+        picked.values.push_back({.field = drawn[i].field.channel().name, .value = value});
     }
     return picked;
 }
@@ -111,21 +116,21 @@ struct March {
 };
 
 March marched(const scene::Layer& layer, const std::vector<Drawn>& drawn, const GridRay& grid,
-              const Span& span, double stepWorld) {
+              const Span& span, Steps wanted) {
     March march;
     march.strongest.assign(drawn.size(), Strongest{layer.model});
-    const double steps = stepsOver(span.end - span.begin, stepWorld);
+    const double steps = stepsOver(span.end - span.begin, wanted.world);
     const double dt = (span.end - span.begin) / steps;
     const bool absorbs = layer.model == scene::RayModel::kVolume;
     const double gain = absorbs ? std::exp(static_cast<double>(layer.gain)) : 1.0;
     for (double i = 0.0; i < steps; ++i) {
-        const double distance = span.begin + (i + 0.5) * dt;
+        const double distance = span.begin + (i + wanted.share) * dt;
         const double through = absorbs ? std::exp(-march.depth) : 1.0;
         glm::dvec3 emitted{0.0};
         double extinction = 0.0;
         for (std::size_t c = 0; c < drawn.size(); ++c) {
             const double value = drawn[c].field.at(grid.at(distance));
-            if (!counts(layer, value)) continue;
+            if (!counts(drawn[c], value)) continue;
             glm::dvec4 matter = drawn[c].map.at(value);
             matter.a *= gain;
             march.strongest[c].add({.distance = distance,
@@ -194,6 +199,7 @@ std::optional<Place> firstLevel(const scene::Layer& layer, const Drawn& drawn, c
         // Of several levels in a step the first on the way is met.
         const float* met = nullptr;
         for (const float& level : levels) {
+            if (std::isnan(front) || std::isnan(back)) continue;
             if ((front < level) == (back < level)) continue;
             if (met == nullptr || front >= back) met = &level;
         }
@@ -228,7 +234,7 @@ std::optional<Place> crossSection(const data::Volume& volume, const scene::Layer
         if (!(distance >= span.begin && distance <= span.end)) continue;
         if (nearest && nearest->distance <= distance) continue;
         const double value = drawn.field.at(grid.at(distance));
-        if (!counts(layer, value)) continue;
+        if (!counts(drawn, value)) continue;
         nearest = Place{
             .distance = distance, .f = value, .item = 0, .colour = glm::dvec3{drawn.map.at(value)}};
     }
@@ -237,7 +243,7 @@ std::optional<Place> crossSection(const data::Volume& volume, const scene::Layer
 
 }  // namespace
 
-std::optional<Look> lookAt(const data::Volume& volume, const scene::Layer& layer, double stepWorld,
+std::optional<Look> lookAt(const data::Volume& volume, const scene::Layer& layer, Steps wanted,
                            const Ray& ray, const Span& span) {
     const std::vector<Drawn> drawn = drawnOf(volume, layer);
     const GridRay grid = toGrid(volume, ray);
@@ -246,7 +252,7 @@ std::optional<Look> lookAt(const data::Volume& volume, const scene::Layer& layer
     std::optional<Place> hit;
     const bool opaque = scene::row(layer.model).opaque;
     if (layer.model == scene::RayModel::kIsosurface) {
-        hit = firstLevel(layer, drawn.front(), grid, inside, stepWorld);
+        hit = firstLevel(layer, drawn.front(), grid, inside, wanted.world);
     } else if (opaque) {
         hit = crossSection(volume, layer, drawn.front(), grid, inside);
     }
@@ -254,7 +260,7 @@ std::optional<Look> lookAt(const data::Volume& volume, const scene::Layer& layer
         if (!hit) return std::nullopt;
         return Look{.shown = {hit->colour, 1.0}, .place = pickedAt(volume, drawn, ray, grid, *hit)};
     }
-    const March march = marched(layer, drawn, grid, inside, stepWorld);
+    const March march = marched(layer, drawn, grid, inside, wanted);
     const Place* place = winner(layer, march);
     if (place == nullptr) return std::nullopt;
     return Look{.shown = shownBy(layer, march),

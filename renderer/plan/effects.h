@@ -39,6 +39,8 @@ inline constexpr const char* kBricks = "bricks";      ///< Voxels are loaded by 
 inline constexpr const char* kChannels = "channels";  ///< Several are drawn together.
 inline constexpr const char* kLight = "light";    ///< Volume: needs the field's slope at samples.
 inline constexpr const char* kJitter = "jitter";  ///< Samples are not in the middle of steps.
+/// Some voxels are NaN, and nothing is where they would count.
+inline constexpr const char* kVoxelsWithoutValue = "voxels without value";
 inline constexpr const char* kUserShader =
     "user shader";  ///< A user's code says what samples show.
 inline constexpr const char* kStepEnlarged = "step enlarged";  ///< The step asked for is too small.

@@ -76,8 +76,16 @@ data::Range extinctionOfChannels(const Layer& layer, const DatasetSummary& summa
             const float overshoot = kTricubicOvershoot * (range.max - range.min);
             range = {.min = range.min - overshoot, .max = range.max + overshoot};
         }
-        const data::Range one = extinctionOver(channel->map, range);
-        sum.min += one.min;
+        if (channel->interval) {
+            range = {.min = std::max(range.min, channel->interval->min),
+                     .max = std::min(range.max, channel->interval->max)};
+            if (range.min > range.max) continue;
+        }
+        const data::TransferFunction map = layer.model == RayModel::kVolume
+                                               ? scene::withGain(channel->map, layer.gain)
+                                               : channel->map;
+        const data::Range one = extinctionOver(map, range);
+        sum.min += channel->interval ? 0.0F : one.min;
         sum.max += one.max;
     }
     return sum;

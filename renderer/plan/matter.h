@@ -23,6 +23,16 @@ struct Matter {
 /// The matter of `layer`; all must live longer than it.
 Matter matterOf(const scene::Layer& layer, const data::DatasetSummary& summary);
 
+/// What all visible layers of voxels take as wholes; what two of them share counts once.
+struct Residency {
+    std::size_t wholes = 0;
+    std::uint64_t bytes = 0;
+};
+Residency residencyOf(const scene::Scene& scene, const scene::Summaries& summaries);
+
+/// Steps on a ray that all loops of a pixel have room for.
+int mostSteps(scene::Integrator method, const RayLimits& limits);
+
 /// Whether values change within a cell.
 bool varies(const data::FieldSummary* field);
 
@@ -44,8 +54,14 @@ void planHeadlight(LayerPlan& plan, const scene::Layer& isosurface);
 /// What is known of the method chosen.
 void planEvidence(LayerPlan& plan, std::span<const Evidence> evidence);
 
+/// The step that a layer names, world units; 0: none.
+double askedStep(const Matter& matter, const scene::Camera& camera);
+/// A user's code in the place of the map, on any data; and all else of it on a mesh.
+void planCode(LayerPlan& plan, const Matter& matter);
+void planMeshCode(LayerPlan& plan, const Matter& matter, const scene::Camera& camera);
+
 /// Rays through a mesh.
-void planMeshRays(LayerPlan& plan, const Matter& matter, const scene::Accuracy& wish,
+void planMeshRays(LayerPlan& plan, const Matter& matter, const scene::Scene& scene,
                   std::span<const Evidence> evidence);
 /// Boundary faces.
 void planSurface(LayerPlan& plan, const Matter& matter);
@@ -53,7 +69,8 @@ void planSurface(LayerPlan& plan, const Matter& matter);
 void planVoxels(LayerPlan& plan, const Matter& matter, const scene::Scene& scene,
                 std::span<const Evidence> evidence);
 /// Whether voxels are on the GPU as a whole or as bricks; after the two around this one.
-void planResidency(LayerPlan& plan, const Matter& matter, const Limits& limits);
+void planResidency(LayerPlan& plan, const Matter& matter, const Limits& limits,
+                   const Residency& all);
 /// How their pieces are integrated.
 void planVoxelMethod(LayerPlan& plan, const Matter& matter, const scene::Accuracy& wish,
                      std::span<const Evidence> evidence);

@@ -73,7 +73,7 @@ Method withinTime(double bound, std::span<const Evidence> evidence, Integrator e
 bool needsEvidence(const scene::Layer& layer, const Accuracy& wish) {
     const bool bounded =
         wish.kind == Accuracy::Kind::kErrorBound || wish.kind == Accuracy::Kind::kTimeBudget;
-    return bounded && layer.integrator == Integrator::kAuto &&
+    return bounded && layer.shader.code.empty() && layer.integrator == Integrator::kAuto &&
            scene::row(layer.model).integrators.size() > 1;
 }
 

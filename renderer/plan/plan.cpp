@@ -27,6 +27,10 @@ void planVisible(LayerPlan& plan, const Matter& matter) {
     } else if (!matter.layer.channels.empty() && scene::shownChannels(matter.layer).empty()) {
         plan.drawn = false;
         add(plan, kVisible, false, "all of its channels are hidden");
+    } else if (matter.layer.model == RayModel::kCrossSections &&
+               !glm::any(matter.layer.crossSections.shown)) {
+        plan.drawn = false;
+        add(plan, kVisible, false, "none of the three planes is shown");
     } else if (!matter.layer.shader.code.empty()) {
         add(plan, kVisible, true, "nobody knows what the code shows before it runs");
     } else if (matter.layer.model == RayModel::kVolume && matter.extinction.max <= 0.0F) {
@@ -38,10 +42,6 @@ void planVisible(LayerPlan& plan, const Matter& matter) {
                scene::levelsOf(matter.layer).empty()) {
         plan.drawn = false;
         add(plan, kVisible, false, "no level is in the interval");
-    } else if (matter.layer.model == RayModel::kCrossSections &&
-               !glm::any(matter.layer.crossSections.shown)) {
-        plan.drawn = false;
-        add(plan, kVisible, false, "none of the three planes is shown");
     } else {
         add(plan, kVisible, true, "the layer is shown");
     }
@@ -69,9 +69,13 @@ void planSelection(LayerPlan& plan, const Matter& matter, const scene::Scene& sc
     const Layer& layer = matter.layer;
     // Of isosurfaces the levels are chosen by it once; rays need not look.
     const bool interval = layer.interval && layer.model != RayModel::kIsosurface;
-    add(plan, kInterval, interval,
-        interval ? "only values from " + number(layer.interval->min) + " to " +
-                       number(layer.interval->max) + " count"
+    const std::vector<const scene::ChannelMap*> shown = scene::shownChannels(layer);
+    const auto cut = std::ranges::count_if(
+        shown, [](const scene::ChannelMap* channel) { return channel->interval.has_value(); });
+    add(plan, kInterval, interval || cut > 0,
+        cut > 0    ? "of " + std::to_string(cut) + " channel(s) only values in an interval count"
+        : interval ? "only values from " + number(layer.interval->min) + " to " +
+                         number(layer.interval->max) + " count"
         : layer.interval ? "levels outside of it are left out"
                          : "all values count");
     const std::size_t planes = scene.clipPlanes.size();
@@ -97,7 +101,8 @@ void planCamera(LayerPlan& plan, const Matter& matter, const scene::Camera& came
 }
 
 LayerPlan planLayer(const scene::Scene& scene, const Layer& layer, const DatasetSummary& summary,
-                    bool hasSurfaces, std::span<const Evidence> evidence, const Limits& limits) {
+                    bool hasSurfaces, std::span<const Evidence> evidence, const Limits& limits,
+                    const Residency& all) {
     const Matter matter = matterOf(layer, summary);
     LayerPlan plan;
     plan.layer = layer.id;
@@ -106,7 +111,7 @@ LayerPlan planLayer(const scene::Scene& scene, const Layer& layer, const Dataset
     const scene::RayModelRow& row = scene::row(layer.model);
     if (layer.model == RayModel::kCrossSections) {
         planCrossSections(plan, matter);
-        planResidency(plan, matter, limits);
+        planResidency(plan, matter, limits, all);
         planCamera(plan, matter, scene.camera);
         return plan;
     }
@@ -115,10 +120,10 @@ LayerPlan planLayer(const scene::Scene& scene, const Layer& layer, const Dataset
         return plan;
     }
     if (summary.isMesh) {
-        planMeshRays(plan, matter, scene.accuracy, evidence);
+        planMeshRays(plan, matter, scene, evidence);
     } else {
         planVoxels(plan, matter, scene, evidence);
-        planResidency(plan, matter, limits);
+        planResidency(plan, matter, limits, all);
     }
     planCamera(plan, matter, scene.camera);
     if (row.opaque) {
@@ -179,12 +184,13 @@ FramePlan plan(const scene::Scene& scene, const scene::Summaries& summaries,
     const bool hasSurfaces = std::ranges::any_of(scene.layers, [](const Layer& layer) {
         return layer.visible && scene::row(layer.model).opaque;
     });
+    const Residency all = residencyOf(scene, summaries);
     FramePlan frame;
     for (const Layer& layer : scene.layers) {
         const auto known = evidence.find(layer.id);
         frame.layers.push_back(planLayer(
             scene, layer, summaries.at(layer.dataset), hasSurfaces,
-            known == evidence.end() ? std::span<const Evidence>{} : known->second, limits));
+            known == evidence.end() ? std::span<const Evidence>{} : known->second, limits, all));
     }
     shareWalks(scene, frame);
     frame.id = idOf(frame.layers);

@@ -58,7 +58,6 @@ inline constexpr int kMaxRaySamples = 60'000;
 
 /// The same where pieces are split, and their parts: both are loops.
 inline constexpr int kMaxRayPieces = 30'000;
-inline constexpr int kMaxRayParts = 30'000;
 
 /// Rounds that an adaptive march may need for one of the layer's steps: 4 as short as they get, and
 /// as many that are tried and halved.
@@ -74,10 +73,28 @@ inline constexpr float kTricubicOvershoot = 0.48F;
 /// kMaxSkippedSide, beyond which none are asked for. Rays enter at most 3 times 128 bricks beside.
 inline constexpr int kMaxBrickedRaySamples = 36'000;
 inline constexpr int kMaxSkippedSide = 4096;
+/// The same of volumes with longer sides, whose rays enter at most 3 times 1024 bricks, each by a
+/// search of at most 11 rounds.
+inline constexpr int kMaxWideBrickedRaySamples = 30'000;
+/// The same where pieces are split, and their parts: nothing is foreseen there, so that ranges take
+/// 128 times 72 rounds and 3 times 128 bricks 9 each; 14'000 is less than half of what the longer
+/// sides leave.
+inline constexpr int kMaxBrickedRayPieces = 24'000;
+inline constexpr int kMaxWideBrickedRayPieces = 14'000;
+
+/// What all loops of a ray have room for.
+struct RayLimits {
+    int samples = kMaxRaySamples;
+    int pieces = kMaxRayPieces;  ///< And as many parts.
+};
+
+/// Of voxels as a whole, or of bricks of a volume with so many coarser levels.
+RayLimits rayLimits(bool bricked, int coarserLevels) noexcept;
 
 /// What the machine has to offer.
 struct Limits {
-    /// Of GPU memory: a channel that takes more is drawn from bricks.
+    /// Of GPU memory, for all voxels of a scene: where its layers take more together, those that
+    /// can are drawn from bricks, which share it.
     std::uint64_t volumeBytes = std::uint64_t{1} << 30;
     std::uint64_t pictureBytes = std::uint64_t{16} << 20;  ///< Of bricks that one picture loads.
 };

@@ -68,13 +68,15 @@ void planSecondField(LayerPlan& plan, const Matter& matter) {
 
 }  // namespace
 
-void planMeshRays(LayerPlan& plan, const Matter& matter, const scene::Accuracy& wish,
+void planMeshRays(LayerPlan& plan, const Matter& matter, const scene::Scene& scene,
                   std::span<const Evidence> evidence) {
     plan.evaluator = evaluatorFor(matter.layer);
     const bool constant = !varies(matter.field);
     add(plan, kInterpolation, !constant,
         constant ? "one value a cell" : "values vary within a cell");
-    planMethod(plan, matter, wish, evidence);
+    if (!matter.layer.shader.code.empty()) return planMeshCode(plan, matter, scene.camera);
+    add(plan, kUserShader, false, "the map says what a ray gathers");
+    planMethod(plan, matter, scene.accuracy, evidence);
     planSecondField(plan, matter);
     const bool levels = matter.layer.model == RayModel::kIsosurface;
     if (levels) {

@@ -1,7 +1,11 @@
 #include <algorithm>
+#include <map>
 
 #include "renderer/plan/effects.h"
 #include "renderer/plan/matter.h"
+#include "renderer/scene/channels.h"
+#include "renderer/scene/layer_fields.h"
+#include "renderer/scene/user_controls.h"
 
 namespace volcast::plan {
 namespace {
@@ -10,11 +14,14 @@ namespace {
 constexpr std::uint64_t kResidentVoxelBytes = 4;
 constexpr std::uint64_t kMib = std::uint64_t{1} << 20;
 
-std::uint64_t residentBytes(const data::DatasetSummary& summary) {
+std::uint64_t channelBytes(const data::DatasetSummary& summary) {
     return static_cast<std::uint64_t>(summary.voxels.x) *
            static_cast<std::uint64_t>(summary.voxels.y) *
            static_cast<std::uint64_t>(summary.voxels.z) * kResidentVoxelBytes;
 }
+
+/// Of channels that are drawn together, whose texels have room for four.
+constexpr std::uint64_t kChannelsATexel = 4;
 
 std::string mib(std::uint64_t bytes) {
     return number(static_cast<double>(bytes) / static_cast<double>(kMib)) + " MiB";
@@ -24,14 +31,15 @@ std::string mib(std::uint64_t bytes) {
 void limitSamples(LayerPlan& plan, const Matter& matter) {
     const double longest =
         glm::length(matter.summary.spacing * glm::dvec3(matter.summary.voxels - 1));
-    const double smallest = longest / kMaxBrickedRaySamples;
+    const int most = mostSteps(plan.method, rayLimits(true, matter.summary.coarserLevels));
+    const double smallest = longest / most;
     if (plan.stepWorld <= 0.0 || plan.stepWorld >= smallest) return;
     for (Effect& effect : plan.effects) {
         if (effect.name != kStepEnlarged) continue;
         effect.on = true;
         effect.reason = "a step of " + number(plan.stepWorld) + " needs more than " +
-                        std::to_string(kMaxBrickedRaySamples) +
-                        " samples on a ray through bricks: drawn with " + number(smallest);
+                        std::to_string(most) + " samples on a ray through bricks: drawn with " +
+                        number(smallest);
     }
     plan.stepWorld = smallest;
 }
@@ -50,11 +58,45 @@ void limitSkipping(LayerPlan& plan, const Matter& matter) {
 
 }  // namespace
 
-void planResidency(LayerPlan& plan, const Matter& matter, const Limits& limits) {
-    const std::uint64_t bytes = residentBytes(matter.summary);
-    const std::string taken = "a channel takes " + mib(bytes) + " of GPU memory, " +
-                              mib(limits.volumeBytes) + " are allowed";
-    const bool alone = matter.layer.channels.empty() && matter.layer.shader.code.empty();
+Residency residencyOf(const scene::Scene& scene, const scene::Summaries& summaries) {
+    std::map<std::string, std::uint64_t> wholes;  // By what layers share.
+    for (const scene::Layer& layer : scene.layers) {
+        const data::DatasetSummary& summary = summaries.at(layer.dataset);
+        if (!layer.visible || summary.isMesh) continue;
+        const std::uint64_t bytes = channelBytes(summary);
+        std::string names;
+        for (const scene::ChannelMap* channel : scene::shownChannels(layer)) {
+            names += '\n' + channel->field;
+        }
+        const data::FieldSummary* field = scene::findField(summary, layer.field);
+        if (names.empty() && field != nullptr) names = field->name;
+        const bool several = !scene::shownChannels(layer).empty();
+        wholes[layer.dataset + '\n' + names] = several ? kChannelsATexel * bytes : bytes;
+    }
+    Residency all{.wholes = wholes.size()};
+    for (const auto& [name, bytes] : wholes) all.bytes += bytes;
+    return all;
+}
+
+RayLimits rayLimits(bool bricked, int coarserLevels) noexcept {
+    constexpr int kSkippedLevels = 7;  // 32 << 7 = kMaxSkippedSide.
+    if (!bricked) return {};
+    if (coarserLevels > kSkippedLevels) {
+        return {.samples = kMaxWideBrickedRaySamples, .pieces = kMaxWideBrickedRayPieces};
+    }
+    return {.samples = kMaxBrickedRaySamples, .pieces = kMaxBrickedRayPieces};
+}
+
+void planResidency(LayerPlan& plan, const Matter& matter, const Limits& limits,
+                   const Residency& all) {
+    const std::uint64_t bytes = all.bytes;
+    const std::string taken =
+        (all.wholes == 1 ? "its voxels take "
+                         : "the voxels of " + std::to_string(all.wholes) + " layers take ") +
+        mib(bytes) + " of GPU memory, " + mib(limits.volumeBytes) + " are allowed";
+    const bool alone =
+        matter.layer.channels.empty() &&
+        (bytes <= limits.volumeBytes || !scene::readsOtherChannels(matter.layer, matter.summary));
     const bool known =
         plan.evaluator == Evaluator::kVolumeMarch || plan.evaluator == Evaluator::kCrossSections;
     if (bytes <= limits.volumeBytes) {
@@ -63,8 +105,7 @@ void planResidency(LayerPlan& plan, const Matter& matter, const Limits& limits) 
         add(plan, kBricks, false, "the volume is too small to have coarser levels");
     } else if (!alone || !known) {
         add(plan, kBricks, false,
-            taken + ", but " + (known ? "several channels and users' code need" : "slices need") +
-                " all of it");
+            taken + ", but " + (known ? "several channels need" : "slices need") + " all of it");
     } else {
         add(plan, kBricks, true, taken + ": loaded by bricks of its pyramid");
         limitSamples(plan, matter);

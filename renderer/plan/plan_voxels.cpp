@@ -11,39 +11,24 @@ namespace {
 using scene::Layer;
 using scene::RayModel;
 
-/// Steps on a ray that all loops of a pixel have room for.
-int mostSteps(scene::Integrator method) {
-    if (method == scene::Integrator::kAdaptive) return kMaxRayPieces / kMaxRoundsAStep;
-    return method == scene::Integrator::kExact ? kMaxRayPieces : kMaxRaySamples;
-}
-
-/// How far the data's bounds reach along the view, world units.
-double depthOf(const data::Box& bounds, const scene::Camera& camera) {
-    const glm::dvec3 forward = glm::normalize(camera.center - camera.eye);
-    return glm::dot(glm::abs(forward), bounds.max - bounds.min);
-}
-
 /// The step that a layer asks for, world units.
 double wantedStep(const Matter& matter, const scene::Camera& camera) {
-    if (matter.layer.depthSamples > 0) {
-        return depthOf(matter.summary.bounds, camera) / matter.layer.depthSamples;
-    }
+    const double asked = askedStep(matter, camera);
     const glm::dvec3 spacing = matter.summary.spacing;
-    return matter.layer.stepWorld > 0.0 ? matter.layer.stepWorld
-                                        : 0.5 * std::min({spacing.x, spacing.y, spacing.z});
+    return asked > 0.0 ? asked : 0.5 * std::min({spacing.x, spacing.y, spacing.z});
 }
 
 void planStep(LayerPlan& plan, const Matter& matter, const scene::Camera& camera) {
     const glm::dvec3 spacing = matter.summary.spacing;
     const double wanted = wantedStep(matter, camera);
     const double longest = glm::length(spacing * glm::dvec3(matter.summary.voxels - 1));
-    const double smallest = longest / mostSteps(plan.method);
+    const int most = mostSteps(plan.method, rayLimits(false, 0));
+    const double smallest = longest / most;
     plan.stepWorld = std::max(wanted, smallest);
     const bool enlarged = wanted < smallest;
     add(plan, kStepEnlarged, enlarged,
-        enlarged ? "a step of " + number(wanted) + " needs more than " +
-                       std::to_string(mostSteps(plan.method)) + " samples on a ray: drawn with " +
-                       number(smallest)
+        enlarged ? "a step of " + number(wanted) + " needs more than " + std::to_string(most) +
+                       " samples on a ray: drawn with " + number(smallest)
         : matter.layer.depthSamples > 0
             ? std::to_string(matter.layer.depthSamples) + " samples over the depth of the data"
             : "the step is as asked for");
@@ -81,9 +66,6 @@ void planChannels(LayerPlan& plan, const Layer& layer) {
 }
 
 void planBricks(LayerPlan& plan, const Matter& matter) {
-    if (plan.has(kChannels)) {
-        return add(plan, kEmptyBricks, false, "bricks of several channels are not compared");
-    }
     const glm::ivec3 intervals = matter.summary.voxels - 1;
     const bool several =
         std::max({intervals.x, intervals.y, intervals.z}) > data::Volume::kBrickSize;
@@ -100,6 +82,20 @@ void planBricks(LayerPlan& plan, const Matter& matter) {
     } else {
         add(plan, kEmptyBricks, true, "the map has no extinction in a part of the data's range");
     }
+}
+
+void planMissing(LayerPlan& plan, const Matter& matter) {
+    std::uint64_t count = matter.field == nullptr ? 0 : matter.field->voxelsWithoutValue;
+    if (!matter.layer.channels.empty()) {
+        count = 0;
+        for (const scene::ChannelMap* channel : scene::shownChannels(matter.layer)) {
+            count += scene::findField(matter.summary, channel->field)->voxelsWithoutValue;
+        }
+    }
+    add(plan, kVoxelsWithoutValue, count > 0,
+        count > 0 ? "nothing is drawn where " + std::to_string(count) +
+                        " voxel(s) without a value (NaN) would count"
+                  : "every voxel has a value");
 }
 
 Evaluator evaluatorFor(scene::VoxelEvaluator evaluator) {
@@ -123,6 +119,7 @@ void planLight(LayerPlan& plan, const Layer& volume) {
     const bool lit = volume.light.has_value();
     add(plan, kLight, lit,
         !lit                     ? "matter emits its colour alone, so no gradient is needed"
+        : plan.has(kChannels)    ? "each channel is lit by the slope of its own field"
         : volume.light->position ? "lit from a point of the world"
                                  : "lit from the eye");
 }
@@ -130,17 +127,17 @@ void planLight(LayerPlan& plan, const Layer& volume) {
 /// A user's code in the place of the map.
 void planUserShader(LayerPlan& plan, const Matter& matter, const scene::Camera& camera) {
     plan.evaluator = Evaluator::kVolumeMarch;
-    plan.integrator = "user shader";
-    plan.method = scene::Integrator::kAverage;
-    add(plan, kUserShader, true, "the layer's code says what a sample shows; its map is not used");
+    planCode(plan, matter);
     planStep(plan, matter, camera);
     add(plan, kEmptyBricks, false, "nobody knows what the code shows of a brick's values");
-    const bool gathers = matter.layer.model == RayModel::kVolume;
-    add(plan, kEarlyStop, gathers,
-        gathers ? "a ray may get opaque on its way" : "every sample may have the extreme");
 }
 
 }  // namespace
+
+int mostSteps(scene::Integrator method, const RayLimits& limits) {
+    if (method == scene::Integrator::kAdaptive) return limits.pieces / kMaxRoundsAStep;
+    return method == scene::Integrator::kExact ? limits.pieces : limits.samples;
+}
 
 void planVoxels(LayerPlan& plan, const Matter& matter, const scene::Scene& scene,
                 std::span<const Evidence> evidence) {
@@ -148,6 +145,7 @@ void planVoxels(LayerPlan& plan, const Matter& matter, const scene::Scene& scene
     plan.integrator = "march";
     planChannels(plan, matter.layer);
     planInterpolation(plan, matter.layer);
+    planMissing(plan, matter);
     if (!matter.layer.shader.code.empty()) return planUserShader(plan, matter, scene.camera);
     add(plan, kUserShader, false, "the map says what a sample shows");
     planVoxelMethod(plan, matter, scene.accuracy, evidence);
@@ -168,6 +166,11 @@ void planCrossSections(LayerPlan& plan, const Matter& matter) {
     plan.evaluator = Evaluator::kCrossSections;
     plan.integrator = "planes";
     planInterpolation(plan, matter.layer);
+    planMissing(plan, matter);
+    const bool code = !matter.layer.shader.code.empty();
+    add(plan, kUserShader, code,
+        code ? "the layer's code says what a plane shows; its map is not used"
+             : "the map says what a plane shows");
     add(plan, kEndsAtSurfaces, false, "opaque layers share one depth");
 }
 

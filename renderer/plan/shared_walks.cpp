@@ -55,6 +55,7 @@ int onlyVolume(const scene::Scene& scene, const FramePlan& frame) {
         if (found >= 0 || scene.layers[i].model != RayModel::kVolume) return -1;
         found = static_cast<int>(i);
     }
+    if (found >= 0 && !scene.layers[static_cast<std::size_t>(found)].shader.code.empty()) return -1;
     const bool walks = found >= 0 && frame.layers[static_cast<std::size_t>(found)].evaluator ==
                                          Evaluator::kMeshWalk;
     return walks ? found : -1;

@@ -130,7 +130,10 @@ glm::dvec3 VoxelGrid::normalAt(const glm::dvec3& world) const {
         glm::dvec3 low = at, high = at;
         low[axis] = std::max(at[axis] - 1.0, 0.0);
         high[axis] = std::min(at[axis] + 1.0, last[axis]);
-        const double rise = between(high, high).front() - between(low, low).front();
+        double above = between(high, high).front(), below = between(low, low).front();
+        if (std::isnan(above)) high = at, above = between(at, at).front();
+        if (std::isnan(below)) low = at, below = between(at, at).front();
+        const double rise = above - below;
         slope[axis] = rise / std::max(high[axis] - low[axis], 0.5) / volume_->spacing[axis];
     }
     const double size = glm::length(slope);

@@ -35,7 +35,8 @@ public:
                std::vector<VoxelPiece>& pieces) const;
 
     /// The direction in the world in which the field rises most, by differences over a grid
-    /// interval to each side, a shorter one at a face; of length 1, or 0 where it is flat.
+    /// interval to each side, a shorter one at a face and none where there is no value; of length
+    /// 1, or 0 where it is flat.
     [[nodiscard]] glm::dvec3 normalAt(const glm::dvec3& world) const;
 
 private:

@@ -9,6 +9,7 @@
 #include "renderer/scene/layer_block.h"
 #include "renderer/scene/layer_fields.h"
 #include "renderer/scene/scale.h"
+#include "renderer/scene/user_controls.h"
 
 namespace volcast::scene {
 namespace {
@@ -41,7 +42,9 @@ std::function<bool(glm::vec2)> showsOf(const Layer& layer, const plan::LayerPlan
                                        const data::DatasetSummary& summary) {
     std::function<bool(glm::vec2)> byModel;
     const ScaleFunction scale{layer.scale, findField(summary, layer.field)->range};
-    if (layer.model == RayModel::kVolume || layer.model == RayModel::kXray) {
+    if (runsUserCode(layer)) {
+        // Nobody knows what it shows of a value.
+    } else if (layer.model == RayModel::kVolume || layer.model == RayModel::kXray) {
         LayerMaps maps = layerMaps(layer, summary);
         byModel = [scale, map = maps.density.points.empty()
                                     ? std::move(maps.main)

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "renderer/data/transfer_function.h"
@@ -8,27 +9,33 @@
 
 namespace volcast::scene {
 
-/// The maps of several channels as texels; the layout is described in classify/channel_maps.glsl.
+/// How values of one channel are shown, as rays see them.
+struct DrawnChannel {
+    data::TransferFunction map;
+    std::optional<data::Range> interval;
+    friend bool operator==(const DrawnChannel&, const DrawnChannel&) = default;
+};
+
+/// Several channels as texels; the layout is described in classify/channel_maps.glsl.
 struct ChannelTexels {
     std::vector<glm::vec4> texels;
     int search = 0;  ///< 2 bits a channel.
 };
-ChannelTexels channelTexels(const std::vector<data::TransferFunction>& maps);
+ChannelTexels channelTexels(const std::vector<DrawnChannel>& channels);
 
 /// The maps of a layer's channels on the GPU.
 class ChannelTable {
 public:
-    /// Uploads `maps` (1 to kMaxChannels, valid, their values as rays see them) unless they are
-    /// what the table holds already.
+    /// Uploads `channels` (1 to kMaxChannels, valid) unless they are what the table holds already.
     ///
     /// Errors: kOutOfGpuMemory; the table then stays as it was.
-    Result<void> set(gpu::Device& device, const std::vector<data::TransferFunction>& maps);
+    Result<void> set(gpu::Device& device, const std::vector<DrawnChannel>& channels);
 
     void bind() const noexcept;
     [[nodiscard]] std::vector<shading::Constant> constants() const;
 
 private:
-    std::vector<data::TransferFunction> maps_;
+    std::vector<DrawnChannel> channels_;
     int search_ = 0;
     gpu::Buffer buffer_;
 };

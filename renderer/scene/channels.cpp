@@ -1,6 +1,7 @@
 #include "renderer/scene/channels.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "renderer/scene/ray_models.h"
 
@@ -17,6 +18,10 @@ bool drawsSeveral(RayModel model) {
            model == RayModel::kXray;
 }
 
+bool ordered(const data::Range& range) {
+    return std::isfinite(range.min) && std::isfinite(range.max) && range.min <= range.max;
+}
+
 Result<void> validateCompany(const Layer& layer, const std::string& path) {
     const auto alone = [&](const char* field, const std::string& what) {
         return fail(ErrorCode::kUnsupported, path + field + ": " + what, path + field);
@@ -26,8 +31,9 @@ Result<void> validateCompany(const Layer& layer, const std::string& path) {
                                       " draws one channel, the layer's field; volume, mip, minip "
                                       "and xray draw several");
     }
-    if (layer.light) return alone(".light", "several channels have no gradient in common");
-    if (layer.interval) return alone(".interval", "several channels have no values in common");
+    if (layer.interval) {
+        return alone(".interval", "several channels have no values in common; give each its own");
+    }
     if (!layer.shader.code.empty()) {
         return alone(".shader", "a shader reads channels itself; leave `channels` empty");
     }
@@ -66,6 +72,14 @@ Result<void> validateChannels(const Layer& layer, const std::string& path) {
                         [&](const ChannelMap& other) { return other.field == channel.field; })) {
             return fail(ErrorCode::kInvalidArgument,
                         field + ": \"" + channel.field + "\" is in the list already", field);
+        }
+        if (channel.interval && !ordered(*channel.interval)) {
+            const std::string at = pathOf(path, i) + ".interval";
+            return fail(ErrorCode::kInvalidArgument,
+                        at + ": " + std::to_string(channel.interval->min) + " to " +
+                            std::to_string(channel.interval->max) +
+                            " is not a range of finite numbers, the first not above the last",
+                        at);
         }
         if (const auto valid = data::validate(channel.map); !valid) {
             const std::string at = pathOf(path, i) + ".transfer_function." + valid.error().field;

@@ -18,9 +18,9 @@ std::vector<const ChannelMap*> shownChannels(const Layer& layer);
 
 /// Checks number, names and maps of a layer's channels, and what they are drawn with.
 ///
-/// Errors: kInvalidArgument (a name that is empty or doubled, a map), kLimitExceeded (number),
-/// kUnsupported (a model, light, interval or second field that draws one channel alone), with
-/// `field` below `path`.
+/// Errors: kInvalidArgument (a name that is empty or doubled, a map, an interval),
+/// kLimitExceeded (number), kUnsupported (a model, interval, shader or evaluator that draws one
+/// channel alone), with `field` below `path`.
 Result<void> validateChannels(const Layer& layer, const std::string& path);
 
 /// The same against the data. Errors: kUnsupported (a mesh), kNotFound (no such channel).

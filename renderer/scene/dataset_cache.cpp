@@ -78,21 +78,23 @@ Result<const mesh::FieldGpu*> CachedDataset::field(gpu::Device& device, const La
                                                    std::uint64_t frame) {
     const auto& whole = std::get<data::Mesh>(data_);
     const data::Field& field = named(whole.fields, use.field->name);
+    // Fields besides the layer's own may have fewer time steps.
+    const int step = std::min(layer.timeStep, static_cast<int>(field.steps.size()) - 1);
     // Values at vertices serve every part.
     const bool gathered =
         part.restriction.has_value() && field.association != data::Association::kVertex;
     const std::string key =
-        keyOf(use, layer.timeStep) + (gathered ? "|" + partKey(layer, summary_) : std::string{});
+        keyOf(use, step) + (gathered ? "|" + partKey(layer, summary_) : std::string{});
     auto kept = fields_.find(key);
     if (kept == fields_.end()) {
         trim(fields_, frame);
         const ScaleFunction scale{use.scale, use.field->range};
         auto uploaded =
-            gathered ? mesh::FieldGpu::upload(device, part.restriction->mesh,
-                                              data::restrictField(field, layer.timeStep,
-                                                                  part.restriction->source.span()),
-                                              0, scale)
-                     : mesh::FieldGpu::upload(device, whole, field, layer.timeStep, scale);
+            gathered
+                ? mesh::FieldGpu::upload(
+                      device, part.restriction->mesh,
+                      data::restrictField(field, step, part.restriction->source.span()), 0, scale)
+                : mesh::FieldGpu::upload(device, whole, field, step, scale);
         if (!uploaded) return std::move(uploaded).error();
         kept =
             fields_.emplace(key, Kept<std::unique_ptr<mesh::FieldGpu>>{std::move(*uploaded)}).first;

@@ -29,8 +29,8 @@ public:
     /// The cells that `layer` draws, uploaded when first asked for. Needs a mesh. Pointers stay
     /// good until a call with a larger `frame`. Errors: as makePart, mesh::MeshGpu::upload.
     Result<const MeshPart*> part(gpu::Device& device, const Layer& layer, std::uint64_t frame);
-    /// A field of the cells of `layer` at its time step, uploaded when first asked for; likewise.
-    /// Errors: as mesh::FieldGpu::upload.
+    /// A field of the cells of `layer` at its time step, or the field's last, uploaded when first
+    /// asked for; likewise. Errors: as mesh::FieldGpu::upload.
     Result<const mesh::FieldGpu*> field(gpu::Device& device, const Layer& layer,
                                         const MeshPart& part, const FieldUse& use,
                                         std::uint64_t frame);

@@ -1,10 +1,14 @@
+#include "renderer/mesh/shared.h"
 #include "renderer/plan/effects.h"
 #include "renderer/scene/layer_draw.h"
 #include "renderer/scene/layer_fields.h"
+#include "renderer/scene/user_controls.h"
 #include "renderer/shading/psi_table.h"
 
 namespace volcast::scene {
 namespace {
+
+static_assert(kMaxOtherFields == mesh::shared::kMostOtherFields);
 
 Result<void> preparePsiTable(DrawContext& context) {
     if (context.psiTable.valid()) return {};
@@ -15,6 +19,19 @@ Result<void> preparePsiTable(DrawContext& context) {
         {.bytes = bytes.size(), .texels = gpu::TexelFormat::kR32F, .label = "psi table"}, bytes);
     if (!made) return made.error();
     context.psiTable = std::move(*made);
+    return {};
+}
+
+/// Brings the fields that code reads besides the layer's own.
+Result<void> prepareOtherFields(DrawContext& context, LayerDraw& draw) {
+    const data::DatasetSummary& summary = draw.dataset->summary();
+    for (const int number : draw.code->otherChannels) {
+        const FieldUse use = asStored(summary.fields[static_cast<std::size_t>(number)]);
+        const auto field =
+            draw.dataset->field(*context.device, *draw.layer, *draw.part, use, context.frame);
+        if (!field) return field.error();
+        draw.otherFields.push_back(*field);
+    }
     return {};
 }
 
@@ -33,6 +50,7 @@ Result<void> prepareMesh(DrawContext& context, LayerDraw& draw) {
         draw.dataset->field(*context.device, *draw.layer, **part, use, context.frame);
     if (!field) return field.error();
     draw.field = *field;
+    if (draw.code) return prepareOtherFields(context, draw);
     const auto second = secondField(*draw.layer, draw.dataset->summary());
     if (!second) return {};
     const auto density =
@@ -45,6 +63,12 @@ Result<void> prepareMesh(DrawContext& context, LayerDraw& draw) {
 Result<void> drawMesh(const DrawContext& context, const Frame& frame, const LayerDraw& draw,
                       const gpu::Target& target) {
     if (draw.part->gpu == nullptr) return {};  // No cell is left to draw.
+    mesh::UserInputs user;
+    if (draw.code) {
+        user = {.texts = draw.code->texts,
+                .others = draw.otherFields,
+                .iterations = draw.code->iterations};
+    }
     const mesh::DrawInputs inputs{
         .device = context.device,
         .programs = context.programs,
@@ -62,6 +86,7 @@ Result<void> drawMesh(const DrawContext& context, const Frame& frame, const Laye
         .clipPlanes = static_cast<int>(frame.scene->clipPlanes.size()),
         .levels = draw.levels,
         .countsSteps = frame.countsSteps,
+        .user = draw.code ? &user : nullptr,
         .psiTable = draw.plan->method == Integrator::kPsiTable ? &context.psiTable : nullptr,
         .target = &target};
     if (draw.plan->evaluator == plan::Evaluator::kMeshRaster) return mesh::drawSurface(inputs);

@@ -13,12 +13,17 @@ namespace {
 
 /// Brings several channels and their maps.
 Result<void> prepareChannels(DrawContext& context, LayerDraw& draw) {
-    std::vector<data::TransferFunction> maps;
+    const float gain = draw.layer->model == RayModel::kVolume ? draw.layer->gain : 0.0F;
+    std::vector<DrawnChannel> drawn;
     for (const ChannelMap* shown : shownChannels(*draw.layer)) {
         const data::FieldSummary* field = findField(draw.dataset->summary(), shown->field);
-        maps.push_back(scaled(shown->map, {Scale{}, field->range}));
+        const ScaleFunction scale{Scale{}, field->range};
+        drawn.push_back({.map = scaled(withGain(shown->map, gain), scale), .interval = {}});
+        if (!shown->interval) continue;
+        drawn.back().interval = data::Range{.min = scale.ofPoint(shown->interval->min),
+                                            .max = scale.ofPoint(shown->interval->max)};
     }
-    if (auto set = draw.state->channels.set(*context.device, maps); !set) return set;
+    if (auto set = draw.state->channels.set(*context.device, drawn); !set) return set;
     const std::vector<shading::Constant> constants = draw.state->channels.constants();
     draw.constants.insert(draw.constants.end(), constants.begin(), constants.end());
     const auto channels = draw.dataset->channels(*context.device, *draw.layer, context.frame);
@@ -52,7 +57,7 @@ Result<void> prepareBricks(DrawContext& context, const Frame& frame, LayerDraw& 
         .channel = &volume.channels[channel],
         .number = draw.dataset->generation() * data::kMaxChannels + channel,
         .view = brickView(*frame.scene, frame.size, *draw.layer, *draw.plan, volume, summary),
-        .capacity = context.bricks.capacity(**pool)};
+        .capacity = context.bricks.capacity(volume.type)};
     auto report =
         draw.state->bricks.prepare(*context.device, **pool, request, context.bricks.loadBytes());
     if (!report) return report.error();
@@ -76,9 +81,9 @@ PixelBox coverOfRays(const Frame& frame, const LayerDraw& draw, bool passesOver)
 
 Result<void> prepareVoxels(DrawContext& context, const Frame& frame, LayerDraw& draw) {
     draw.state->brickReport.reset();
+    if (draw.plan->has(plan::kBricks)) return prepareBricks(context, frame, draw);
     if (draw.code) return prepareRawChannels(context, draw);
     if (!draw.layer->channels.empty()) return prepareChannels(context, draw);
-    if (draw.plan->has(plan::kBricks)) return prepareBricks(context, frame, draw);
     const Result<const volume::ChannelGpu*> channel =
         draw.dataset->channel(*context.device, *draw.layer, context.frame);
     if (!channel) return channel.error();

@@ -23,6 +23,7 @@ struct LayerDraw {
     const MeshPart* part = nullptr;  // Of a mesh.
     const mesh::FieldGpu* field = nullptr;
     const mesh::FieldGpu* density = nullptr;
+    std::vector<const mesh::FieldGpu*> otherFields;  // That its code reads besides `field`.
     const volume::ChannelGpu* channel = nullptr;
     const volume::ChannelsGpu* channels = nullptr;  // Instead, where several are drawn together.
     const volume::BrickPool* pool = nullptr;        // Instead, of voxels in bricks.

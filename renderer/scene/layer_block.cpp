@@ -129,7 +129,7 @@ LayerBlock layerBlock(PictureSize size, const DepthRange& depths, const Scene& s
                       1.0F / static_cast<float>(size.y)};
     block.clipFromData = clipFromData(camera, axes, half, depths, eye);
     block.gridFromData = volume != nullptr ? gridFromData(*volume) : glm::mat4(1.0F);
-    block.grid = volume != nullptr ? glm::vec4(glm::vec3(volume->size), stepWorld) : glm::vec4(0);
+    block.grid = glm::vec4(volume != nullptr ? glm::vec3(volume->size) : glm::vec3(0), stepWorld);
     if (volume != nullptr) block.sections = sections(layer.crossSections, *volume);
     block.surfaceColour = glm::vec4(layer.surfaceColour, 1.0F);
     block.edge = glm::vec4(layer.edgeColour, layer.edgeWidth);

@@ -38,6 +38,14 @@ FieldUse mainField(const Layer& layer, const data::DatasetSummary& summary) {
     return {.field = findField(summary, layer.field), .scale = layer.scale};
 }
 
+FieldUse asStored(const data::FieldSummary& field) {
+    // Nothing is taken off values whose domain is not far from 0.
+    const float far = std::max(std::abs(field.range.min), std::abs(field.range.max));
+    Scale scale;
+    if (far > 0.0F) scale.domain = data::Range{.min = -far, .max = far};
+    return {.field = &field, .scale = scale};
+}
+
 std::optional<FieldUse> secondField(const Layer& layer, const data::DatasetSummary& summary) {
     if (!row(layer.model).secondField || readsDensityAlone(layer) || layer.densityField.empty()) {
         return std::nullopt;

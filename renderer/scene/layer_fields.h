@@ -24,6 +24,9 @@ FieldUse mainField(const Layer& layer, const data::DatasetSummary& summary);
 /// g, where its values are not those of the main field.
 std::optional<FieldUse> secondField(const Layer& layer, const data::DatasetSummary& summary);
 
+/// A field as code of users reads it.
+FieldUse asStored(const data::FieldSummary& field);
+
 /// `map` with extinctions times exp(gain).
 data::TransferFunction withGain(data::TransferFunction map, float gain);
 

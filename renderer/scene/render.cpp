@@ -149,9 +149,11 @@ Result<FrameInfo> DeviceRenderer::render(std::uint64_t view, const Scene& scene,
     }
     if (const Result<void> coded = takeCodes(frame); !coded) return coded.error();
     const Work work = workFor(frame);
-    const auto bricked = std::ranges::count_if(
-        frame.draws, [](const LayerDraw& draw) { return draw.plan->has(plan::kBricks); });
-    context_.bricks.begin(view, context_.frame, static_cast<std::size_t>(bricked), target.complete);
+    std::map<data::VoxelType, int> bricked;
+    for (const LayerDraw& draw : frame.draws) {
+        if (draw.plan->has(plan::kBricks)) ++bricked[draw.dataset->summary().voxelType];
+    }
+    context_.bricks.begin(view, context_.frame, std::move(bricked), target.complete);
     const Result<void> made = make(frame, work, info);
     countWork();
     if (!made) return made.error();

@@ -125,6 +125,7 @@ struct ChannelMap {
     std::string field;
     data::TransferFunction map;
     bool visible = true;
+    std::optional<data::Range> interval = {};  ///< Only values in it count; min <= max.
     friend bool operator==(const ChannelMap&, const ChannelMap&) = default;
 };
 

@@ -31,11 +31,6 @@ double intervalShift(const Layer& layer, const data::DatasetSummary& summary) {
     return -double{ScaleFunction{use.scale, use.field->range}.ofPoint(0.0F)};
 }
 
-int ownChannel(const Layer& layer, const data::DatasetSummary& summary) {
-    const auto field = std::ranges::find(summary.fields, layer.field, &data::FieldSummary::name);
-    return field == summary.fields.end() ? 0 : static_cast<int>(field - summary.fields.begin());
-}
-
 }  // namespace
 
 Result<UserCode> UserCodes::of(const Layer& layer, const data::DatasetSummary& summary,
@@ -44,9 +39,9 @@ Result<UserCode> UserCodes::of(const Layer& layer, const data::DatasetSummary& s
     if (!code) return code.error();
     const ValueType type = valueType(summary);
     UserCode made;
-    made.otherChannels =
-        otherChannels(*code, ownChannel(layer, summary), static_cast<int>(summary.fields.size()));
-    made.texts = {{.path = user_shader::kValuesChunk, .text = user_shader::valuesText(type)},
+    made.otherChannels = otherChannels(*code, layer, summary);
+    made.texts = {{.path = user_shader::kValuesChunk,
+                   .text = user_shader::valuesText(type, layer.model != RayModel::kCrossSections)},
                   {.path = user_shader::kControlsChunk,
                    .text = user_shader::controlsText(code->controls, made.otherChannels, type)},
                   {.path = user_shader::kBodyChunk, .text = code->body}};

@@ -100,13 +100,16 @@ Result<void> validateShader(const Layer& layer, const std::string& path) {
                     at + ".controls: there is no code that declares them", at + ".controls");
     }
     const bool runs = layer.model == RayModel::kVolume || layer.model == RayModel::kMip ||
-                      layer.model == RayModel::kMinip;
+                      layer.model == RayModel::kMinip || layer.model == RayModel::kCrossSections;
     if (!runs) {
-        return unsupported(at, "code says what samples of volume, mip and minip show, not of " +
-                                   std::string{name(layer.model)});
+        return unsupported(
+            at, "code says what samples of volume, mip, minip and cross_sections show, not of " +
+                    std::string{name(layer.model)});
     }
     if (layer.light) {
-        return unsupported(path + ".light", "code gives colours as they are seen; it has no light");
+        return unsupported(path + ".light",
+                           "light needs the gradient of a field; what code emits has none, its "
+                           "colours are shown as they are");
     }
     const Result<Checked> code = resolved(layer.shader, at);
     return code ? Result<void>{} : code.error();
@@ -116,36 +119,49 @@ Result<void> validateShader(const Layer& layer, const data::DatasetSummary& summ
                             const std::string& path) {
     if (!runsUserCode(layer)) return {};
     const std::string at = path + ".shader";
-    if (summary.isMesh) return unsupported(at, "code runs at samples of voxels, not in meshes");
+    if (summary.isMesh && layer.scale != Scale{}) {
+        return unsupported(path + ".scale",
+                           "code is given values as they are stored, and scales "
+                           "them itself");
+    }
     const Result<Checked> code = resolved(layer.shader, at);
     if (!code) return code.error();
     const auto count = static_cast<int>(summary.fields.size());
+    const std::string noun = summary.isMesh ? "field" : "channel";
     for (const int channel : namedChannels(*code)) {
         if (channel < count) continue;
         return fail(ErrorCode::kNotFound,
-                    at + ": there is no channel " + std::to_string(channel) + "; \"" +
+                    at + ": there is no " + noun + " " + std::to_string(channel) + "; \"" +
                         layer.dataset + "\" has " + std::to_string(count) + ", from 0",
                     at);
     }
-    const auto field = std::ranges::find(summary.fields, layer.field, &data::FieldSummary::name);
-    const auto own =
-        field == summary.fields.end() ? 0 : static_cast<int>(field - summary.fields.begin());
-    const std::size_t others = otherChannels(*code, own, count).size();
-    if (others > kMaxOtherChannels) {
+    const std::size_t others = otherChannels(*code, layer, summary).size();
+    const std::size_t most = summary.isMesh ? kMaxOtherFields : kMaxOtherChannels;
+    if (others > most) {
         return fail(ErrorCode::kLimitExceeded,
-                    at + ": reads " + std::to_string(others + 1) + " channels, at most " +
-                        std::to_string(kMaxOtherChannels + 1),
+                    at + ": reads " + std::to_string(others + 1) + " " + noun + "s, at most " +
+                        std::to_string(most + 1),
                     at);
     }
     return {};
 }
 
-std::vector<int> otherChannels(const Checked& code, int own, int count) {
+bool readsOtherChannels(const Layer& layer, const data::DatasetSummary& summary) {
+    if (!runsUserCode(layer)) return false;
+    const Result<Checked> code = resolved(layer.shader, "shader");
+    if (!code) return false;
+    return !otherChannels(*code, layer, summary).empty();
+}
+
+std::vector<int> otherChannels(const Checked& code, const Layer& layer,
+                               const data::DatasetSummary& summary) {
     std::set<int> channels = namedChannels(code);
-    if (code.readsAnyChannel) {
-        for (int channel = 0; channel < count; ++channel) channels.insert(channel);
+    for (std::size_t i = 0; i < summary.fields.size() && code.readsAnyChannel; ++i) {
+        channels.insert(static_cast<int>(i));
     }
-    channels.erase(own);
+    const auto own = std::ranges::find(summary.fields, layer.field, &data::FieldSummary::name);
+    channels.erase(own == summary.fields.end() ? 0
+                                               : static_cast<int>(own - summary.fields.begin()));
     return {channels.begin(), channels.end()};
 }
 

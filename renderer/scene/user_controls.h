@@ -32,10 +32,16 @@ user_shader::ValueType valueType(const data::DatasetSummary& summary);
 /// One error of all that is wrong with a code, a line each: "line 3, column 5: ...".
 Error shaderError(const std::vector<user_shader::Complaint>& complaints, const std::string& path);
 
-/// The channels that `code` reads besides number `own`, ascending; `count`: of the data.
-std::vector<int> otherChannels(const user_shader::Checked& code, int own, int count);
+/// The channels, or fields of a mesh, that `code` reads besides that of `layer`, ascending.
+std::vector<int> otherChannels(const user_shader::Checked& code, const Layer& layer,
+                               const data::DatasetSummary& summary);
 
-/// Most of them in one program; shaders/volume/user_channels.glsl has as many textures.
+/// Whether the code of a valid `layer` reads any.
+bool readsOtherChannels(const Layer& layer, const data::DatasetSummary& summary);
+
+/// Most of them in one program; shaders/volume/user_channels.glsl and shaders/mesh/user_fields.glsl
+/// have as many textures.
 inline constexpr std::size_t kMaxOtherChannels = 7;
+inline constexpr std::size_t kMaxOtherFields = 5;
 
 }  // namespace volcast::scene

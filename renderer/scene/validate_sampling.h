@@ -8,6 +8,7 @@
 namespace volcast::scene {
 
 inline constexpr int kMaxDepthSamples = 16'384;
+inline constexpr int kUsualDepthSamples = 64;  ///< Of those who count samples and give no number.
 inline constexpr float kMaxGain = 10.0F;
 
 /// How voxels of `layer`, named `path`, are sampled: step or number of samples, gain.

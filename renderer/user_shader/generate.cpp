@@ -9,16 +9,15 @@ namespace {
 
 struct TypeRow {
     const char* name;  ///< In GLSL.
-    const char* file;
     Interval range;
 };
 
 const TypeRow& rowOf(ValueType type) {
     static const std::array<TypeRow, 4> kRows{
-        TypeRow{"useruint8_t", "u8", {.from = 0.0, .to = 255.0}},
-        TypeRow{"useruint16_t", "u16", {.from = 0.0, .to = 65535.0}},
-        TypeRow{"userint16_t", "i16", {.from = -32768.0, .to = 32767.0}},
-        TypeRow{"float", "f32", {.from = 0.0, .to = 1.0}}};
+        TypeRow{"useruint8_t", {.from = 0.0, .to = 255.0}},
+        TypeRow{"useruint16_t", {.from = 0.0, .to = 65535.0}},
+        TypeRow{"userint16_t", {.from = -32768.0, .to = 32767.0}},
+        TypeRow{"float", {.from = 0.0, .to = 1.0}}};
     return kRows[static_cast<std::size_t>(type)];
 }
 
@@ -79,8 +78,19 @@ Interval fullRange(ValueType type) {
     return rowOf(type).range;
 }
 
-std::string valuesText(ValueType type) {
-    return std::string{"#include \"user/values_"} + rowOf(type).file + ".glsl\"\n";
+std::string valuesText(ValueType type, bool volumeRendering) {
+    const std::string name = rowOf(type).name;
+    const auto reader = [&name](const std::string& function, const std::string& value) {
+        return name + " " + function + "(int channel) { return " + name + "(" + value +
+               "(channel)); }\n";
+    };
+    const auto ofOwn = [&name](const std::string& function) {
+        return name + " " + function + "() { return " + function + "(kOwnChannel); }\n";
+    };
+    return std::string{"const bool VOLUME_RENDERING = "} + (volumeRendering ? "true" : "false") +
+           ";\n" + reader("getDataValue", "nearestValue") + ofOwn("getDataValue") +
+           reader("getInterpolatedDataValue", "interpolatedValue") +
+           ofOwn("getInterpolatedDataValue") + reader("getSampledValue", "sampledValue");
 }
 
 std::string controlsText(const std::vector<Control>& controls, const std::vector<int>& others,

@@ -18,8 +18,9 @@ inline constexpr const char* kValuesChunk = "generated/values.glsl";
 inline constexpr const char* kControlsChunk = "generated/controls.glsl";
 inline constexpr const char* kBodyChunk = "shader";
 
-/// The text of kValuesChunk: which file of shaders/user/ knows the type.
-std::string valuesText(ValueType type);
+/// The text of kValuesChunk: how the code reads data of `type`, and whether rays gather what it
+/// emits.
+std::string valuesText(ValueType type, bool volumeRendering);
 
 /// The text of kControlsChunk: the controls as they are now, and slotOf() for `others`, the
 /// channels besides the layer's own, in the order of their slots from 1.

@@ -85,6 +85,7 @@ private:
                 }
             }
         }
+        if (range.x > range.y) return range;
         const auto over = static_cast<float>(view_.overshoot) * (range.y - range.x);
         return {range.x - over, range.y + over};
     }
@@ -108,7 +109,7 @@ private:
             glm::length(glm::dvec2(at(view_.right, centre), at(view_.up, centre)) / seen);
         if (isOutside(box)) {
             node.need = Need::kOutside;
-        } else if (view_.shows && !view_.shows(node.range)) {
+        } else if (node.range.x > node.range.y || (view_.shows && !view_.shows(node.range))) {
             node.need = Need::kHidden;
         }
         return node;

@@ -34,20 +34,22 @@ struct BrickView {
     double voxelWorld = 0.0;     ///< Longest side of a voxel of level 0.
     double overshoot = 0.0;      ///< How far interpolation leaves the voxels' range, of it.
     bool reachesAround = false;  ///< It reads voxels beyond the cell it is in.
-    /// Whether any value in (min, max) can show; empty: all do.
+    /// Whether any value in (min, max), min <= max, can show; empty: all do.
     std::function<bool(glm::vec2)> shows = {};
 };
 
 enum class Need {
     kNeeded,
-    kHidden,   ///< No value in its range shows.
+    kHidden,   ///< No value in its range shows, or it has none.
     kOutside,  ///< No ray of the picture gets there.
 };
 
 struct BrickNode {
     Brick brick;
-    glm::vec2 range{0.0F};  ///< Of everything interpolation may yield in it, at its level or finer.
-    int firstChild = 0;     ///< Eight in a row; 0: none.
+    /// Of everything interpolation may yield in it, at its level or finer; (infinity, -infinity)
+    /// where no voxel has a value.
+    glm::vec2 range{0.0F};
+    int firstChild = 0;  ///< Eight in a row; 0: none.
     Need need = Need::kNeeded;
     double nearest = 0.0;     ///< Depth of its nearest point, at least 0.
     double fromMiddle = 0.0;  ///< Of its centre from the picture's middle, as seen.

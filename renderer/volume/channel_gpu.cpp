@@ -63,7 +63,9 @@ ChannelRanges rangesOf(const data::Volume& volume, const data::Channel& channel,
                        const scene::ScaleFunction& scale) {
     const auto ranges = [&](int around) {
         std::vector<glm::vec2> found = blockRanges(volume, channel, around);
-        for (glm::vec2& range : found) range = {scale.ofData(range.x), scale.ofData(range.y)};
+        for (glm::vec2& range : found) {
+            if (range.x <= range.y) range = {scale.ofData(range.x), scale.ofData(range.y)};
+        }
         return found;
     };
     return {.grid = blockGrid(volume.size), .cells = ranges(0), .support = ranges(1)};

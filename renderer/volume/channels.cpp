@@ -6,6 +6,7 @@
 #include "renderer/plan/effects.h"
 #include "renderer/scene/scale.h"
 #include "renderer/shading/shared.h"
+#include "renderer/volume/block_ranges.h"
 #include "renderer/volume/voxel_floats.h"
 
 namespace volcast::volume {
@@ -39,6 +40,29 @@ void sliceOf(const data::Volume& volume, const data::Channel& channel, int slice
     for (float& value : floats) value = scale.ofData(value);
 }
 
+Result<gpu::Buffer> uploadRanges(gpu::Device& device, const data::Volume& volume,
+                                 std::span<const data::Channel* const> channels) {
+    std::vector<glm::vec4> texels;
+    for (std::size_t c = 0; c < channels.size(); ++c) {
+        const std::vector<glm::vec2> ranges =
+            joinedAround(blockRanges(volume, *channels[c], 1), blockGrid(volume.size));
+        texels.resize(2 * ranges.size(), glm::vec4{0.0F});
+        const scene::ScaleFunction scale{scene::Scale{}, channels[c]->range};
+        for (std::size_t i = 0; i < ranges.size(); ++i) {
+            const bool some = ranges[i].x <= ranges[i].y;
+            const auto component = static_cast<int>(c);
+            texels[2 * i][component] = some ? scale.ofData(ranges[i].x) : ranges[i].x;
+            texels[2 * i + 1][component] = some ? scale.ofData(ranges[i].y) : ranges[i].y;
+        }
+    }
+    const auto bytes = std::as_bytes(std::span{texels});
+    return gpu::Buffer::create(device,
+                               {.bytes = bytes.size(),
+                                .texels = gpu::TexelFormat::kRgba32F,
+                                .label = "block ranges of channels"},
+                               bytes);
+}
+
 }  // namespace
 
 Result<ChannelsGpu> ChannelsGpu::upload(gpu::Device& device, const data::Volume& volume,
@@ -62,13 +86,17 @@ Result<ChannelsGpu> ChannelsGpu::upload(gpu::Device& device, const data::Volume&
         const auto sent = texture->upload(slice, 1, std::as_bytes(std::span{texels}));
         if (!sent) return sent.error();
     }
+    Result<gpu::Buffer> ranges = uploadRanges(device, volume, channels);
+    if (!ranges) return ranges.error();
     ChannelsGpu made;
+    made.ranges_ = std::move(*ranges);
     made.voxels_ = std::move(*texture);
     return made;
 }
 
 void ChannelsGpu::bind() const noexcept {
     voxels_.bind(shading::shared::kVoxelUnit);
+    ranges_.bindTexels(shading::shared::kBrickUnit);
 }
 
 Result<void> drawChannels(const DrawInputs& inputs, const ChannelsGpu& channels) {
@@ -77,6 +105,14 @@ Result<void> drawChannels(const DrawInputs& inputs, const ChannelsGpu& channels)
                                        {"kSampling", static_cast<int>(inputs.layer->sampling)},
                                        {"kFilterInHardware", inputs.filterInHardware},
                                        {"kEarlyStop", inputs.plan->has(plan::kEarlyStop)},
+                                       {"kSkipBricks", inputs.plan->has(plan::kEmptyBricks)},
+                                       {"kShaded", inputs.plan->has(plan::kLight)},
+                                       {"kInterval", inputs.plan->has(plan::kInterval)},
+                                       {"kJitters", inputs.plan->has(plan::kJitter)},
+                                       {"kMissing", inputs.plan->has(plan::kVoxelsWithoutValue)},
+                                       {"kRangeBlock", kRangeBlock},
+                                       {"kRangeReach", kRangeReach},
+                                       {"kTricubicOvershoot", plan::kTricubicOvershoot},
                                        {"kClipPlanes", inputs.clipPlanes},
                                        {"kClipsAtStart", true},
                                        {"kMaxRaySamples", plan::kMaxRaySamples}});

@@ -7,6 +7,10 @@
 namespace volcast::volume {
 
 /// Several channels of a volume on the GPU, side by side in the texels of one float32 texture.
+///
+/// Each has a map, an interval and a light of its own: the slope that turns a light is that of the
+/// channel's field, as VTK's independent components have it. A slope of all matter together would
+/// show edges of one channel on the others.
 class ChannelsGpu {
 public:
     /// `channels`: 1 to 4 of `volume`.
@@ -19,6 +23,7 @@ public:
 
 private:
     gpu::Texture3D voxels_;
+    gpu::Buffer ranges_;  // See block_ranges.h; 2 texels a block: smallest values, largest values.
 };
 
 /// Draws a layer's channels over what is in the target; `inputs.channel` is not looked at. Their

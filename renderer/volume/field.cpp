@@ -37,6 +37,8 @@ void addField(shading::Recipe& recipe, const FieldTraits& traits) {
                                                      {"kVoxelKind", voxelKind(traits.type)}});
     // Whoever reads voxels gets them from bricks.
     recipe.texts.push_back({"volume/voxels.glsl", "#include \"volume/bricked_voxels.glsl\"\n"});
+    recipe.texts.push_back(
+        {"volume/user_channels.glsl", "#include \"volume/bricked_user_channel.glsl\"\n"});
     recipe.texts.push_back({"volume/ranges.glsl", "#include \"volume/bricked_ranges.glsl\"\n"});
 }
 

@@ -24,6 +24,7 @@ MarchTraits traitsOf(const DrawInputs& inputs) {
             .shaded = inputs.plan->has(plan::kLight),
             .interval = inputs.plan->has(plan::kInterval),
             .jitters = inputs.plan->has(plan::kJitter),
+            .missing = inputs.plan->has(plan::kVoxelsWithoutValue),
             .clipPlanes = inputs.clipPlanes,
             .field = fieldTraits(inputs)};
 }
@@ -58,6 +59,8 @@ Pieces piecesOf(const MarchTraits& traits) {
 shading::Recipe marchRecipe(const MarchTraits& traits, std::vector<shading::Constant> constants) {
     const scene::RayModelRow& row = scene::row(traits.model);
     const Pieces pieces = piecesOf(traits);
+    const plan::RayLimits limits =
+        plan::rayLimits(traits.field.bricked, traits.field.coarserLevels);
     const bool loops = pieces == Pieces::kSplit || pieces == Pieces::kAdaptive;
     const scene::IntegratorRow* integrator =
         pieces == Pieces::kVoxels ? row.voxelIntegrators.data()
@@ -73,10 +76,11 @@ shading::Recipe marchRecipe(const MarchTraits& traits, std::vector<shading::Cons
                       {"kSplits", pieces == Pieces::kSplit},
                       {"kSumsColour", traits.model == scene::RayModel::kSplat},
                       {"kSumsExtinction", traits.model == scene::RayModel::kXray},
-                      {"kMaxRayParts", plan::kMaxRayParts},
+                      {"kMaxRayParts", limits.pieces},
                       {"kSkipBricks", traits.skipsBricks},
                       {"kByDistance", traits.skipsBricks && traits.byDistance},
-                      {"kForesees", traits.skipsBricks && !traits.interval &&
+                      // A sample that is looked at first has to count.
+                      {"kForesees", traits.skipsBricks && !traits.interval && !traits.missing &&
                                         (traits.model == scene::RayModel::kMip ||
                                          traits.model == scene::RayModel::kMinip)},
                       {"kEarlyStop", traits.earlyStop},
@@ -84,10 +88,12 @@ shading::Recipe marchRecipe(const MarchTraits& traits, std::vector<shading::Cons
                       {"kShaded", traits.shaded},
                       {"kInterval", traits.interval},
                       {"kJitters", traits.jitters},
+                      {"kMissing", traits.missing},
+                      {"kCoarseSteps", traits.field.bricked && !row.opaque},
                       {"kClipPlanes", traits.clipPlanes},
                       {"kClipsAtStart", true},
                       {"kTricubicOvershoot", plan::kTricubicOvershoot},
-                      {"kMaxRaySamples", loops ? plan::kMaxRayPieces : plan::kMaxRaySamples}});
+                      {"kMaxRaySamples", loops ? limits.pieces : limits.samples}});
     std::string segment{integrator == nullptr ? "" : integrator->chunk};
     if (traits.shaded) segment = "segment/average_lit.glsl";
     shading::Recipe recipe{

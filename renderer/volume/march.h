@@ -95,6 +95,7 @@ struct MarchTraits {
     bool shaded = false;  ///< Volumes, at their samples.
     bool interval = false;
     bool jitters = false;  ///< Samples are not in the middle of their steps.
+    bool missing = false;  ///< Some voxels have no value.
     int clipPlanes = 0;
     FieldTraits field = {};
 };
@@ -102,11 +103,12 @@ struct MarchTraits {
 /// What a draw needs besides where a user's code says what samples show.
 struct UserInputs {
     std::vector<shading::TextChunk> texts;    ///< Its chunks that are no files.
-    std::vector<const RawChannel*> channels;  ///< The layer's own, then the others.
+    std::vector<const RawChannel*> channels;  ///< The layer's own, then the others; or of bricks.
     int iterations = 0;                       ///< Of its loops, for one sample.
 };
 
-/// Draws one layer by its code, over what is in the target. Its controls are bound by the caller.
+/// Draws one layer, cross-sections too, by its code, over what is in the target. Its controls are
+/// bound by the caller.
 ///
 /// Errors: kShaderBuild.
 Result<void> drawUserCode(const DrawInputs& inputs, const UserInputs& user);
@@ -118,8 +120,10 @@ struct UserTraits {
     bool filterInHardware = false;
     bool interval = false;
     int clipPlanes = 0;
-    int otherChannels = 0;
+    int otherChannels = 0;  ///< None of bricks.
     int iterations = 0;
+    bool missing = false;
+    FieldTraits field = {};
 };
 
 shading::Recipe userRecipe(const UserTraits& traits, std::vector<shading::TextChunk> texts,

@@ -77,6 +77,7 @@ ExitCode Loop::run() {
 }
 
 Result<void> Loop::handle(const wire::ToWorker& message, const Descriptors& descriptors) {
+    if (fault_) fault_->received(message);
     switch (message.body_case()) {
         case wire::ToWorker::kAddDataset: {
             return addDataset(message.add_dataset().id(), descriptors);
@@ -96,13 +97,20 @@ Result<void> Loop::handle(const wire::ToWorker& message, const Descriptors& desc
         case wire::ToWorker::kPing: {
             wire::FromWorker answer;
             answer.mutable_pong()->set_token(message.ping().token());
-            return reply(answer);
+            return reply(std::move(answer));
         }
         case wire::ToWorker::kWarmUp: return warmUp(message.warm_up().step());
         case wire::ToWorker::kMeasure: return measure(message.measure());
         case wire::ToWorker::kPick: return pick(message.pick());
         case wire::ToWorker::kStopMeasuring: {
             meter_.stop();
+            return {};
+        }
+        case wire::ToWorker::kArmFault: {
+            const auto fault = parseFault(message.arm_fault().fault());
+            if (!fault) return fault.error();
+            if (auto armed = arm(*fault); !armed) return armed;
+            fault_->received(message);
             return {};
         }
         case wire::ToWorker::BODY_NOT_SET: break;
@@ -126,23 +134,19 @@ Result<void> Loop::addDataset(const std::string& id, const Descriptors& descript
         *answer.mutable_failed() = toMessage(dataset.error());
         answer.mutable_failed()->set_dataset(id);
     }
-    return reply(answer);
+    return reply(std::move(answer));
 }
 
 Result<void> Loop::warmUp(std::uint32_t step) {
     // What fails here fails again, and is told, when a scene needs it.
     if (auto done = worker::warmUp(renderer_, step); !done) {
-        if (done.error().code == ErrorCode::kDeviceLost) {
-            deviceLost_ = true;
-            device_.abandon();
-            return done;
-        }
+        if (done.error().code == ErrorCode::kDeviceLost) return deviceLoss(done.error());
         spdlog::warn("{}", done.error().message);
     }
     wire::FromWorker answer;
     answer.mutable_warmed_up()->set_step(step);
     answer.mutable_warmed_up()->set_more(step + 1 < kWarmUpSteps);
-    return reply(answer);
+    return reply(std::move(answer));
 }
 
 Result<wire::Rendered> Loop::draw(const wire::Render& request, const Descriptors& descriptors) {
@@ -197,7 +201,7 @@ Result<void> Loop::render(const wire::Render& request, const Descriptors& descri
     }
     wire::FromWorker answer;
     *answer.mutable_rendered() = *std::move(rendered);
-    return reply(answer);
+    return reply(std::move(answer));
 }
 
 Result<void> Loop::measure(const wire::Measure& request) {
@@ -217,7 +221,7 @@ Result<void> Loop::measure(const wire::Measure& request) {
     } else {
         answer.mutable_measuring()->set_request(request.request());
     }
-    return reply(answer);
+    return reply(std::move(answer));
 }
 
 Result<void> Loop::pick(const wire::Pick& request) {
@@ -235,30 +239,40 @@ Result<void> Loop::pick(const wire::Pick& request) {
     wire::FromWorker answer;
     answer.mutable_picked()->set_request(request.request());
     *answer.mutable_picked()->mutable_place() = toMessage(*place);
-    return reply(answer);
+    return reply(std::move(answer));
 }
 
 Result<void> Loop::checkDevice() {
     if (device_.resetStatus() == gpu::ResetStatus::kNone) return {};
+    return deviceLoss(fail(ErrorCode::kDeviceLost, "the GPU was reset while drawing"));
+}
+
+Error Loop::deviceLoss(Error error) {
     deviceLost_ = true;
     device_.abandon();
-    return fail(ErrorCode::kDeviceLost, "the GPU was reset while drawing");
+    return error;
 }
 
 Result<void> Loop::refuse(const Error& error, wire::Failed failed) {
-    if (error.code == ErrorCode::kDeviceLost) {
-        deviceLost_ = true;
-        device_.abandon();
-        return error;
-    }
+    if (error.code == ErrorCode::kDeviceLost) return deviceLoss(error);
     wire::FromWorker answer;
     failed.MergeFrom(toMessage(error));
     *answer.mutable_failed() = std::move(failed);
-    return reply(answer);
+    return reply(std::move(answer));
 }
 
-Result<void> Loop::reply(const wire::FromWorker& message) {
-    return channel_.send(message);
+Result<void> Loop::arm(const FaultSpec& fault) {
+    auto armed = ArmedFault::arm(fault);
+    if (!armed) return armed.error();
+    fault_ = *std::move(armed);
+    return {};
+}
+
+Result<void> Loop::reply(wire::FromWorker message) {
+    if (!fault_) return channel_.send(message);
+    const auto answered = fault_->answers(message, channel_);
+    if (!answered) return deviceLoss(answered.error());
+    return *answered ? Result<void>{} : channel_.send(message);
 }
 
 }  // namespace volcast::worker

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "renderer/scene/render.h"
 #include "renderer/worker/channel.h"
 #include "renderer/worker/exit_codes.h"
+#include "renderer/worker/faults.h"
 #include "renderer/worker/slots.h"
 #include "volcast/internal/v1/worker.pb.h"
 
@@ -29,6 +31,9 @@ public:
           evidence_{renderer, meter_,
                     accuracy::Costs{cacheFolder.empty() ? "" : cacheFolder + "/costs.txt",
                                     device.info().glRenderer + " " + device.info().glVersion}} {}
+
+    /// Lets this worker fail. Errors: as ArmedFault::arm.
+    Result<void> arm(const FaultSpec& fault);
 
     /// Until the server closes the channel or the device is lost.
     ExitCode run();
@@ -50,7 +55,9 @@ private:
     Result<void> refuse(const Error& error, internal::v1::Failed failed);
     /// kDeviceLost where the GPU was reset.
     Result<void> checkDevice();
-    Result<void> reply(const internal::v1::FromWorker& message);
+    /// Gives the device up; run() ends.
+    Error deviceLoss(Error error);
+    Result<void> reply(internal::v1::FromWorker message);
 
     Channel& channel_;
     gpu::Device& device_;
@@ -60,6 +67,7 @@ private:
     pick::Picker picker_;
     Slots slots_;
     bool deviceLost_ = false;
+    std::unique_ptr<ArmedFault> fault_;  ///< Null but in tests.
 };
 
 }  // namespace volcast::worker

@@ -11,11 +11,14 @@
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include "renderer/base/forbidden.h"
 #include "renderer/base/sandbox.h"
+#include "renderer/base/software_gpu.h"
 #include "renderer/gpu/device.h"
 #include "renderer/scene/render.h"
 #include "renderer/shading/assemble.h"
 #include "renderer/worker/channel.h"
+#include "renderer/worker/faults.h"
 #include "renderer/worker/frame_message.h"
 #include "renderer/worker/loop.h"
 #include "renderer/worker/options.h"
@@ -39,7 +42,8 @@ int refuse(worker::Channel& channel, const Error& error, worker::ExitCode code) 
 base::SandboxPolicy sandboxPolicy(const worker::Options& options) {
     constexpr std::uint64_t kMaxCacheFile = std::uint64_t{256} << 20;
     base::SandboxPolicy policy{
-        .readable = {"/usr", "/lib", "/lib64", "/etc", "/sys", "/proc/self", "/proc/cpuinfo",
+        .readable = {"/usr", "/lib", "/lib64", "/etc/ld.so.cache", "/etc/drirc", "/etc/glvnd",
+                     "/etc/egl", "/etc/nvidia", "/sys", "/proc/self", "/proc/cpuinfo",
                      "/proc/meminfo", "/proc/driver/nvidia", "/dev/urandom"},
         .writable = {"/dev/dri", "/dev/nvidiactl", "/dev/nvidia-modeset", "/dev/nvidia-uvm",
                      "/dev/nvidia-uvm-tools", "/dev/nvidia-caps", "/dev/kfd", "/dev/null"},
@@ -57,12 +61,27 @@ base::SandboxPolicy sandboxPolicy(const worker::Options& options) {
     return policy;
 }
 
+/// 1 where something was let through.
+int tryForbidden(const worker::Options& options) {
+    if (Result<void> inside = base::enterSandbox(sandboxPolicy(options)); !inside) {
+        spdlog::error("{}", inside.error().message);
+        return worker::kExitSandbox;
+    }
+    const std::vector<base::Tried> all = base::tryForbidden("/tmp");
+    std::fputs(base::report(all).c_str(), stdout);
+    return base::allRefused(all) ? 0 : 1;
+}
+
 int serve(const worker::Options& options, Clock::time_point start) {
     worker::Channel channel{base::FileDescriptor{worker::kChannelFd}};
     // Before GL is touched: its threads are then inside as well, and drivers are not trusted more
     // than shaders are.
     if (Result<void> inside = base::enterSandbox(sandboxPolicy(options)); !inside) {
         return refuse(channel, inside.error(), worker::kExitSandbox);
+    }
+    const bool software = options.gpu == base::kSoftwareGpu;
+    if (options.fault && losesGpuAtStart(*options.fault) && !software) {
+        return worker::kExitDeviceLost;
     }
     auto device = gpu::Device::create({.gpu = options.gpu});
     if (!device) return refuse(channel, device.error(), worker::kExitNoDevice);
@@ -79,8 +98,17 @@ int serve(const worker::Options& options, Clock::time_point start) {
     ready.mutable_ready()->set_software(info.software);
     ready.mutable_ready()->set_start_ms(
         std::chrono::duration<double, std::milli>(Clock::now() - start).count());
+    worker::Loop loop{channel, **device, **renderer, options.cacheFolder};
+    if (options.fault && !(software && options.fault->fault == worker::Fault::kLoseGpu)) {
+        if (auto armed = loop.arm(*options.fault); !armed) {
+            return refuse(channel, armed.error(), worker::kExitUsage);
+        }
+        if (options.fault->fault == worker::Fault::kLoseGpu) {
+            ready.mutable_ready()->set_software(false);
+        }
+    }
     if (!channel.send(ready)) return worker::kExitDone;
-    return worker::Loop{channel, **device, **renderer, options.cacheFolder}.run();
+    return loop.run();
 }
 
 }  // namespace
@@ -97,6 +125,11 @@ int main(int argc, char** argv) {
             spdlog::error("{}", options.error().message);
             return worker::kExitUsage;
         }
+        if (options->help || options->listFaults) {
+            std::fputs(options->help ? worker::kHelp : worker::faultList().c_str(), stdout);
+            return worker::kExitDone;
+        }
+        if (options->tryForbidden) return tryForbidden(*options);
         if (options->probe) {
             std::puts(worker::probe(options->gpu).c_str());
             return worker::kExitDone;

@@ -227,6 +227,11 @@ Result<void> readVoxels(const v1::Layer& message, const string& path, scene::Lay
         if (!map) return std::move(map).error();
         layer.channels.push_back(
             {.field = channel.field(), .map = *std::move(map), .visible = !channel.hidden()});
+        if (!channel.has_interval()) continue;
+        const auto interval =
+            rangeFrom(channel.interval(), path + ".channels[" + std::to_string(i) + "].interval");
+        if (!interval) return interval.error();
+        layer.channels.back().interval = *interval;
     }
     if (message.has_shader()) {
         auto shader = userShaderFrom(message.shader(), path + ".shader");

@@ -91,6 +91,7 @@ void putVoxels(v1::Layer* message, const scene::Layer& layer) {
         added->set_field(channel.field);
         put(added->mutable_transfer_function(), channel.map);
         added->set_hidden(!channel.visible);
+        if (channel.interval) put(added->mutable_interval(), *channel.interval);
     }
     if (layer.shader != scene::UserShader{}) *message->mutable_shader() = toMessage(layer.shader);
     if (layer.crossSections != scene::CrossSections{}) {

@@ -1,10 +1,12 @@
 #include <boost/json.hpp>
 
 #include "renderer/scene/default_scene.h"
+#include "server/commands/cache_folder.h"
 #include "server/commands/child_output.h"
 #include "server/commands/findings.h"
 #include "server/commands/offline_renderer.h"
 #include "server/workers/child_process.h"
+#include "server/workers/gpu_given_up.h"
 #include "server/workers/import_service.h"
 
 namespace volcast::commands {
@@ -168,6 +170,13 @@ std::vector<Finding> findGraphics(const std::string& gpu) {
     }
     addOpened(findings, opened->get_object());
     findings.push_back(drawOne(gpu));
+    const std::string givenUp = workers::gpuGivenUp(userCacheFolder());
+    findings.push_back({.group = "graphics",
+                        .name = "GPU kept by the server",
+                        .ok = givenUp.empty(),
+                        .required = false,
+                        .detail = givenUp.empty() ? "no GPU was given up" : givenUp,
+                        .cost = "volcast serve draws by the CPU until it is started again"});
     return findings;
 }
 

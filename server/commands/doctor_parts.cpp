@@ -1,9 +1,11 @@
 #include <array>
+#include <functional>
 
 #include "renderer/base/sandbox.h"
 #include "server/commands/child_output.h"
 #include "server/commands/findings.h"
-#include "server/video/encoder.h"
+#include "server/video/colour_patch.h"
+#include "server/video/video_stream.h"
 #include "server/workers/child_process.h"
 #include "server/workers/import_service.h"
 
@@ -59,18 +61,39 @@ Finding python(const Reader& reader) {
 }  // namespace
 
 std::vector<Finding> findCodecs() {
-    const std::vector<std::byte> pixels(std::size_t{4} * 16 * 16, std::byte{100});
-    const video::ImageView image{.size = {16, 16}, .rgba = pixels};
+    struct Row {
+        const char* name;
+        bool required;
+        const char* cost;
+        std::function<Result<std::vector<std::byte>>(const video::ImageView&)> encode;
+    };
+    const std::array rows{
+        Row{"JPEG 4:4:4", true, "no pictures while things move",
+            [](const video::ImageView& image) { return video::encodeJpeg(image); }},
+        Row{"PNG", true, "no exact pictures once things rest", video::encodePng},
+        Row{"WebP lossless", false, "clients that have no PNG get no exact pictures",
+            video::encodeWebp},
+    };
     std::vector<Finding> findings;
-    for (const bool jpeg : {true, false}) {
-        const auto bytes = jpeg ? video::encodeJpeg(image) : video::encodePng(image);
+    for (const Row& row : rows) {
+        const auto bytes = row.encode(video::colourPatch());
         findings.push_back({.group = "codecs",
-                            .name = jpeg ? "JPEG 4:4:4" : "PNG",
+                            .name = row.name,
                             .ok = bytes.has_value(),
-                            .required = true,
+                            .required = row.required,
                             .detail = bytes ? "encodes" : bytes.error().message,
-                            .cost = jpeg ? "no pictures while things move"
-                                         : "no exact pictures once things rest"});
+                            .cost = row.cost});
+    }
+    for (const video::EncoderFinding& encoder : video::findVideoEncoders()) {
+        const bool vp9 = encoder.codec == video::VideoCodec::kVp9;
+        findings.push_back({.group = "codecs",
+                            .name = (vp9 ? "VP9 4:4:4, " : "H.264, ") + encoder.name,
+                            .ok = encoder.works,
+                            .required = false,
+                            .detail = encoder.detail,
+                            .cost = encoder.hardware ? "H.264 is encoded on the CPU"
+                                    : vp9            ? "slow connections get H.264 or JPEG"
+                                                     : "slow connections get VP9 or JPEG"});
     }
     return findings;
 }

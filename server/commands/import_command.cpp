@@ -82,7 +82,8 @@ json::object asJson(const workers::ImportedDataset& imported) {
                          {"usual_min", field.spread.usual.min},
                          {"usual_max", field.spread.usual.max},
                          {"steps", field.steps}};
-        if (s.isMesh) row["cells_without_value"] = field.cellsWithoutValue;
+        row[s.isMesh ? "cells_without_value" : "voxels_without_value"] =
+            s.isMesh ? field.cellsWithoutValue : field.voxelsWithoutValue;
         fields.push_back(std::move(row));
     }
     result["fields"] = std::move(fields);

@@ -189,8 +189,10 @@ void addEvaluation(Group group, SceneOptions& o) {
             ->check(finite() & CLI::NonNegativeNumber);
     group
         .add("--depth-samples", o.depthSamples,
-             "Samples over the depth that a volume of voxels reaches along the view; none: by "
-             "--step")
+             "Samples over the depth that a volume of voxels reaches along the view, 64 where no "
+             "number follows; none: by --step")
+        ->expected(0, 1)
+        ->default_str(std::to_string(scene::kUsualDepthSamples))
         ->check(CLI::Range(1, scene::kMaxDepthSamples))
         ->excludes(step);
     group.add("--gain", o.gain, "A volume's extinction is multiplied by e to this; -10 to 10")
@@ -251,7 +253,8 @@ void addHow(Group group, SceneOptions& o) {
     group.add("--shader-dir", o.shaderFolder, "Read shader chunks from here");
     group
         .add("--volume-budget", o.volumeBudgetMib,
-             "MiB of GPU memory: a channel of voxels that takes more is drawn from bricks")
+             "MiB of GPU memory for all voxels of a scene: those that take more are drawn from "
+             "bricks")
         ->check(CLI::Range(workers::kLeastVolumeBudgetMib, workers::kMostVolumeBudgetMib))
         ->capture_default_str();
     group.add("--timeout", o.timeoutSeconds, "Seconds that one frame may take")

@@ -11,7 +11,10 @@
 #include <spdlog/spdlog.h>
 
 #include "server/commands/cache_folder.h"
+#include "server/session/views.h"
 #include "server/settings.h"
+#include "server/video/video_patches.h"
+#include "server/workers/gpu_given_up.h"
 #include "server/workers/isolating_service.h"
 
 namespace volcast::commands {
@@ -38,28 +41,72 @@ int complain(const Error& error) {
     return 1;
 }
 
+/// What outlives the server, where it is asked to.
+struct KeptState {
+    session::LinkKey key;
+    std::unique_ptr<session::StateFolder> folder;
+};
+
+Result<KeptState> openState(const ServeSettings& settings) {
+    KeptState kept;
+    std::string keyFile = settings.linkKeyFile;
+    if (!settings.stateFolder.empty()) {
+        auto folder = session::StateFolder::create(settings.stateFolder);
+        if (!folder) return std::move(folder).error();
+        kept.folder = *std::move(folder);
+        if (keyFile.empty()) {
+            keyFile = settings.stateFolder + "/" + session::StateFolder::kKeyFile;
+        }
+    }
+    auto key = keyFile.empty() ? session::LinkKey::random() : session::LinkKey::fromFile(keyFile);
+    if (!key) return std::move(key).error();
+    kept.key = *key;
+    return kept;
+}
+
 /// Builds the parts, joins them, serves.
 int serve(ServeSettings settings) {
     startLog(settings.logLevel);
     if (settings.render.cacheFolder.empty()) settings.render.cacheFolder = userCacheFolder();
+    workers::forgetGpuGivenUp(settings.render.cacheFolder);  // It gets another chance.
     if (settings.listen.clientFolder.empty()) settings.listen.clientFolder = defaultClientFolder();
     session::ViewRouter router;
-    session::EncodePool encoders{settings.encodeThreads};
     auto render = workers::createIsolatingService(settings.render, router.events());
     if (!render) return complain(render.error());
     session::CatalogueDesc desc;
     desc.folder = settings.dataFolder;
     desc.imports = settings.imports;
     desc.importsAtOnce = settings.importsAtOnce;
+    workers::FaultSwitch faults;
+    faults.connect(**render);
+    if (settings.allowFaults) {
+        spdlog::warn(
+            "event=faults_allowed message=\"any client may let workers and imports fail\"");
+        desc.imports.fault = [&faults] { return faults.takeForImport(); };
+    }
     auto catalogue = session::Catalogue::create(std::move(desc), **render);
     if (!catalogue) return complain(catalogue.error());
+    (void)video::videoPatches();  // Encoders are tried now, not when the first client waits.
+    auto encoders = std::make_unique<session::EncodePool>(settings.encodeThreads);
+    auto kept = openState(settings);
+    if (!kept) return complain(kept.error());
+    session::Views views{{.parts = {.render = **render,
+                                    .catalogue = **catalogue,
+                                    .router = router,
+                                    .encoders = *encoders,
+                                    .maxPixels = settings.limits.maxViewPixels,
+                                    .maxPeople = settings.maxPeople},
+                          .key = kept->key,
+                          .keep = settings.keepViews,
+                          .maxViews = settings.maxOpenViews,
+                          .state = std::move(kept->folder)}};
     session::Shared shared{.render = **render,
                            .catalogue = **catalogue,
-                           .router = router,
-                           .encoders = encoders,
+                           .views = views,
                            .limits = settings.limits,
                            .server = settings.serverName,
-                           .sourceUrl = settings.sourceUrl};
+                           .sourceUrl = settings.sourceUrl,
+                           .faults = settings.allowFaults ? &faults : nullptr};
     auto server = net::Server::create(settings.listen, shared);
     if (!server) return complain(server.error());
     const workers::RenderStatus status = (*render)->status();
@@ -72,6 +119,8 @@ int serve(ServeSettings settings) {
     // An import that runs can take minutes; its process ends with this one.
     if ((*catalogue)->importing()) std::_Exit(0);
     // News of other threads end before the sockets' context does.
+    views.clear();
+    encoders.reset();
     catalogue->reset();
     render->reset();
     return 0;
@@ -84,6 +133,22 @@ void addLimits(CLI::App& command, ServeSettings& settings) {
     command.add_option("--max-views", settings.limits.maxViews, "Views of one client")
         ->check(CLI::Range(1U, 256U))
         ->capture_default_str();
+    command
+        .add_option("--max-open-views", settings.maxOpenViews,
+                    "Views in the whole server; those that nobody looks at make room")
+        ->check(CLI::Range(1U, 100'000U))
+        ->capture_default_str();
+    command.add_option("--max-people", settings.maxPeople, "People in one view")
+        ->check(CLI::Range(1U, 10'000U))
+        ->capture_default_str();
+    command
+        .add_option_function<std::int64_t>(
+            "--keep-views-s",
+            [&settings](std::int64_t seconds) {
+                settings.keepViews = std::chrono::seconds{seconds};
+            },
+            "So long a view waits for people who lost their connection (default 60)")
+        ->check(CLI::Range(1, 30 * 24 * 3600));
     command
         .add_option_function<std::int64_t>(
             "--frame-deadline-ms",
@@ -110,9 +175,34 @@ void addLimits(CLI::App& command, ServeSettings& settings) {
         .add_option_function<std::uint64_t>(
             "--volume-budget",
             [&settings](std::uint64_t mib) { settings.render.volumeBudgetBytes = mib << 20U; },
-            "MiB of GPU memory: a channel of voxels that takes more is drawn from bricks "
+            "MiB of GPU memory for all voxels of a scene: those that take more are drawn from "
+            "bricks "
             "(default 1024)")
         ->check(CLI::Range(workers::kLeastVolumeBudgetMib, workers::kMostVolumeBudgetMib));
+}
+
+void addFaults(CLI::App& command, ServeSettings& settings) {
+    CLI::Option* allowed = command.add_flag(
+        "--allow-faults", settings.allowFaults,
+        "FOR TESTS ALONE: lets every client crash and hang workers and imports (InjectFault)");
+    command
+        .add_option_function<std::string>(
+            "--worker-fault",
+            [&settings](const std::string& text) {
+                const auto fault = worker::parseFault(text);
+                if (!fault) throw CLI::ValidationError{"--worker-fault", fault.error().message};
+                settings.render.fault = *fault;
+            },
+            "FOR TESTS ALONE: each worker gets this --fault; see volcast-worker --list-faults")
+        ->needs(allowed);
+}
+
+void addState(CLI::App& command, ServeSettings& settings) {
+    command.add_option("--state-dir", settings.stateFolder,
+                       "Folder that keeps views over a restart; none: they end with the server");
+    command.add_option("--link-key-file", settings.linkKeyFile,
+                       "Key that share links are signed with, made where there is none; none: "
+                       "link.key in --state-dir, else one of this run");
 }
 
 }  // namespace
@@ -147,7 +237,9 @@ void addServeCommand(CLI::App& app, int& exitCode) {
     command.add_option("--log-level", settings->logLevel, "debug, info, warning, error or off")
         ->check(CLI::IsMember({"debug", "info", "warning", "error", "off"}))
         ->capture_default_str();
+    addState(command, *settings);
     addLimits(command, *settings);
+    addFaults(command, *settings);
     command.callback([settings, &exitCode] { exitCode = serve(*settings); });
 }
 

@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdio>
 #include <new>
 #include <sys/resource.h>
 #include <utility>
 
+#include "renderer/base/forbidden.h"
 #include "renderer/base/sandbox.h"
 #include "renderer/data/packed_dataset.h"
+#include "server/import/import_fault.h"
 #include "volcast/internal/v1/import.pb.h"
 
 namespace volcast::import {
@@ -107,11 +110,12 @@ Result<base::FileDescriptor> buildAndPack(data::load::Loaded& loaded, ProgressSe
 }
 
 Result<Outcome> import(const data::load::Request& request, data::load::ImageReader readImages,
-                       ProgressSender& progress) {
+                       ProgressSender& progress, std::optional<worker::Fault> fault) {
     const auto paths = data::load::neededPaths(request.path);
     if (!paths) return paths.error();
     auto sandboxed = base::enterSandbox(policyFor(request, *paths));
     if (!sandboxed) return sandboxed.error();
+    if (fault) strike(*fault);
     const auto named = [&](const Error& error) {
         return fail(error.code, request.path + ": " + error.message, error.field);
     };
@@ -128,9 +132,10 @@ Result<Outcome> import(const data::load::Request& request, data::load::ImageRead
 
 /// The same, with the ends of memory and of the library's patience as errors.
 Result<Outcome> importCatching(const data::load::Request& request,
-                               data::load::ImageReader readImages, ProgressSender& progress) {
+                               data::load::ImageReader readImages, ProgressSender& progress,
+                               std::optional<worker::Fault> fault) {
     try {
-        return import(request, readImages, progress);
+        return import(request, readImages, progress, fault);
     } catch (const std::bad_alloc&) {
         return fail(ErrorCode::kLimitExceeded, request.path + ": needs more memory than the " +
                                                    std::to_string(request.maxMemoryBytes >> 20) +
@@ -142,11 +147,24 @@ Result<Outcome> importCatching(const data::load::Request& request,
 
 }  // namespace
 
+int tryForbidden(const data::load::Request& request) {
+    const auto paths = data::load::neededPaths(request.path);
+    const auto inside =
+        paths ? base::enterSandbox(policyFor(request, *paths)) : Result<void>{paths.error()};
+    if (!inside) {
+        std::fprintf(stderr, "%s\n", inside.error().message.c_str());
+        return 2;
+    }
+    const std::vector<base::Tried> all = base::tryForbidden("/tmp");
+    std::fputs(base::report(all).c_str(), stdout);
+    return base::allRefused(all) ? 0 : 1;
+}
+
 Result<void> runJob(const data::load::Request& request, data::load::ImageReader readImages,
-                    worker::Channel& channel) {
+                    worker::Channel& channel, std::optional<worker::Fault> fault) {
     const auto start = Clock::now();
     ProgressSender progress{channel};
-    const auto outcome = importCatching(request, readImages, progress);
+    const auto outcome = importCatching(request, readImages, progress, fault);
     messages::FromImport message;
     if (!outcome) {
         message.mutable_refused()->set_code(static_cast<int>(outcome.error().code));

@@ -114,17 +114,19 @@ asio::awaitable<void> WebSocket::writeAll() {
 asio::awaitable<bool> WebSocket::write(const session::Outgoing& message) {
     socket_.text(message.text);
     // A slice is a fragment: what matters is that a reader who stands still is noticed.
-    const std::size_t total = message.head.size() + message.payload.size();
+    static const std::vector<std::byte> kNothing;
+    const std::vector<std::byte>& payload = message.payload ? *message.payload : kNothing;
+    const std::size_t total = message.head.size() + payload.size();
     for (std::size_t done = 0; done < total || total == 0;) {
         const bool inHead = done < message.head.size();
-        const auto& part = inHead ? message.head : message.payload;
+        const auto& part = inHead ? message.head : payload;
         const std::size_t at = inHead ? done : done - message.head.size();
         const std::size_t size = std::min(kSlice, part.size() - at);
         std::array<asio::const_buffer, 2> buffers{asio::buffer(part.data() + at, size)};
         std::size_t sum = size;
         if (inHead && size == part.size() - at) {
-            const std::size_t more = std::min(kSlice - size, message.payload.size());
-            buffers[1] = asio::buffer(message.payload.data(), more);
+            const std::size_t more = std::min(kSlice - size, payload.size());
+            buffers[1] = asio::buffer(payload.data(), more);
             sum += more;
         }
         done += sum;

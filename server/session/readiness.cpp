@@ -13,8 +13,10 @@ std::string readinessJson(const workers::RenderStatus& status) {
     fields["losses"].set_number_value(status.losses);
     fields["spare_ready"].set_bool_value(status.spareReady);
     fields["worker_pid"].set_number_value(status.workerPid);
+    fields["spare_pid"].set_number_value(status.sparePid);
     fields["gl_renderer"].set_string_value(status.glRenderer);
     fields["gl_version"].set_string_value(status.glVersion);
+    fields["gpu_given_up"].set_string_value(status.gpuGivenUp);
     fields["last_loss"].set_string_value(status.lastLoss);
     std::string text;
     (void)google::protobuf::util::MessageToJsonString(object, &text);

@@ -16,6 +16,9 @@ namespace volcast::session {
 namespace {
 
 constexpr std::uint16_t kPolicyViolation = 1008;
+constexpr std::uint16_t kInternalError = 1011;
+constexpr std::uint16_t kGoesOnElsewhere = 4001;  ///< protocol/README.md.
+constexpr std::size_t kMostNameBytes = 64;
 
 std::vector<std::byte> bytesOf(const std::string& text) {
     const auto bytes = std::as_bytes(std::span{text});
@@ -40,10 +43,14 @@ void Session::start() {
 
 Session::~Session() {
     shared_.catalogue.unsubscribe(subscription_);
-    for (const auto& [number, view] : views_) {
-        shared_.router.remove(view->global);
-        shared_.render.dropView(view->global);
+    if (!greeted_) return;
+    const auto until = Clock::now() + shared_.views.keep();
+    for (const auto& [number, seat] : seats_) {
+        spdlog::info("event=view_lost connection={} view={} frames={}", number_, seat.view->id(),
+                     seat.view->framesSent(seat.viewer));
+        seat.view->lose(seat.viewer, until);
     }
+    shared_.views.people().lost(who_.person, who_.visit, until);
 }
 
 void Session::receive(std::span<const std::byte> bytes, Form form, TimePoint now) {
@@ -66,11 +73,18 @@ void Session::receive(std::span<const std::byte> bytes, Form form, TimePoint now
         case v1::ClientMessage::kUpdate: return updateView(message->update(), now);
         case v1::ClientMessage::kCloseView: return closeView(message->close_view().view());
         case v1::ClientMessage::kAck: return ack(message->ack(), now);
+        case v1::ClientMessage::kShareView: return shareView(message->share_view());
+        case v1::ClientMessage::kTakeControl: return takeControl(message->take_control());
+        case v1::ClientMessage::kHandOver: return handOver(message->hand_over());
+        case v1::ClientMessage::kUndo: return undo(message->undo(), now);
         case v1::ClientMessage::kExplain: return explain(message->explain());
         case v1::ClientMessage::kMeasureAccuracy:
             return measureAccuracy(message->measure_accuracy());
         case v1::ClientMessage::kPick: return pick(message->pick());
         case v1::ClientMessage::kDescribeShader: return describeShader(message->describe_shader());
+        case v1::ClientMessage::kInjectFault: return injectFault(message->inject_fault());
+        case v1::ClientMessage::kSetPins: return setPins(message->set_pins(), now);
+        case v1::ClientMessage::kPatchDecoded: return patchDecoded(message->patch_decoded());
         case v1::ClientMessage::kPing: {
             v1::ServerMessage reply;
             reply.mutable_pong()->set_token(message->ping().token());
@@ -94,19 +108,50 @@ void Session::hello(const v1::Hello& message) {
                           {}, "hello.major"));
         return end({kPolicyViolation, "another protocol version"});
     }
-    if (!message.codecs().empty()) {
-        codecs_.jpeg = std::ranges::count(message.codecs(), v1::CODEC_JPEG) != 0;
-        codecs_.png = std::ranges::count(message.codecs(), v1::CODEC_PNG) != 0;
-    }
-    if (!codecs_.jpeg && !codecs_.png) {
-        send(errorMessage(v1::ERROR_CODE_UNSUPPORTED, "this server sends JPEG and PNG only", {},
-                          "hello.codecs"));
+    if (const auto taken = takeCodecs(message); !taken) {
+        send(errorMessage(taken.error(), {}));
         return end({kPolicyViolation, "no codec in common"});
     }
+    if (!identify(message)) return;
     greeted_ = true;
-    spdlog::info(R"(event=hello connection={} client="{}" form={})", number_,
-                 base::printable(message.client(), 80), form_ == Form::kJson ? "json" : "binary");
+    spdlog::info(R"(event=hello connection={} client="{}" form={} person={} resumed={})", number_,
+                 base::printable(message.client(), 80), form_ == Form::kJson ? "json" : "binary",
+                 who_.person, resumed_);
     welcome();
+    comeBack(who_.views);
+}
+
+bool Session::identify(const v1::Hello& message) {
+    if (message.person().size() > kMostNameBytes) {
+        send(errorMessage(v1::ERROR_CODE_LIMIT_EXCEEDED,
+                          "a name of " + std::to_string(message.person().size()) +
+                              " bytes; the limit is " + std::to_string(kMostNameBytes),
+                          {}, "hello.person"));
+        end({kPolicyViolation, "name too long"});
+        return false;
+    }
+    PersonBook& people = shared_.views.people();
+    const auto replaced = onStrand([](Session& self) {
+        self.end({kGoesOnElsewhere, "another connection goes on"});
+    });
+    if (!message.resume().empty()) {
+        const auto back = people.resume(message.resume(), replaced, Clock::now());
+        resumed_ = back.has_value();
+        if (resumed_) {
+            who_ = *back;
+            return true;
+        }
+        send(errorMessage(v1::ERROR_CODE_NOT_PERMITTED, back.error().message, {},
+                          back.error().field));
+    }
+    const auto arrival = people.arrive(base::printable(message.person()), replaced);
+    if (!arrival) {
+        send(errorMessage(arrival.error(), {}));
+        end({kInternalError, "no random bytes"});
+        return false;
+    }
+    who_ = *arrival;
+    return true;
 }
 
 void Session::welcome() {
@@ -116,12 +161,16 @@ void Session::welcome() {
     welcome.set_minor(protocol::kMinor);
     welcome.set_server(shared_.server);
     welcome.set_source_url(shared_.sourceUrl);
-    for (const auto codec : {v1::CODEC_JPEG, v1::CODEC_PNG}) welcome.add_codecs(codec);
+    for (const v1::Codec codec : codecsHere()) welcome.add_codecs(codec);
     for (const scene::RayModelRow& row : scene::rayModels()) {
         if (row.onMeshes) welcome.add_mesh_models(worker::toMessage(row.model));
         if (row.onVolumes) welcome.add_volume_models(worker::toMessage(row.model));
     }
+    welcome.set_resume(who_.token);
+    welcome.set_resumed(resumed_);
+    welcome.set_person(who_.person);
     v1::Limits& limits = *welcome.mutable_limits();
+    limits.set_max_people(static_cast<std::uint32_t>(shared_.views.maxPeople()));
     limits.set_max_views(shared_.limits.maxViews);
     limits.set_max_side(scene::kMaxPictureSide);
     limits.set_max_layers(scene::Scene::kMaxLayers);
@@ -133,120 +182,30 @@ void Session::welcome() {
     send(list);
 }
 
-void Session::openDataset(const v1::OpenDataset& message) {
-    const auto info = shared_.catalogue.open(message.dataset());
-    if (!info) return send(errorMessage(info.error(), {.dataset = message.dataset()}));
-    v1::ServerMessage reply;
-    *reply.mutable_dataset_info() = *info;
-    send(reply);
-}
-
-void Session::openView(const v1::OpenView& message, TimePoint now) {
-    const ErrorContext about{
-        .view = message.view(), .inputSeq = message.input_seq(), .dataset = message.dataset()};
-    if (message.view() == 0) {
-        return send(errorMessage(v1::ERROR_CODE_INVALID_ARGUMENT, "view numbers begin at 1", about,
-                                 "view"));
-    }
-    if (find(message.view()) != nullptr) {
-        return send(errorMessage(v1::ERROR_CODE_INVALID_ARGUMENT,
-                                 "view " + std::to_string(message.view()) + " is open already",
-                                 about, "view"));
-    }
-    if (views_.size() >= shared_.limits.maxViews) {
-        return send(errorMessage(v1::ERROR_CODE_LIMIT_EXCEEDED,
-                                 "this connection has " + std::to_string(views_.size()) +
-                                     " views, the most that it may have",
-                                 about, "view"));
-    }
-    auto view = std::make_unique<View>(
-        View{.number = message.view(),
-             .scene = ViewScene{shared_.catalogue, shared_.limits.maxViewPixels},
-             .frames = ViewFrames{codecs_},
-             .inputAt = now});
-    const auto change = view->scene.open(message);
-    if (!change) return send(errorMessage(change.error(), about));
-    const std::uint64_t global = view->global = shared_.router.reserve();
-    shared_.router.add(
-        global, {.rendered = onStrand([](Session& self, const workers::RenderedFrame& frame) {
-                     self.rendered(frame);
-                 }),
-                 .failed = onStrand([global](Session& self, std::uint64_t tag, const Error& error) {
-                     self.failed(global, tag, error);
-                 }),
-                 .measured = onStrand([global](Session& self, std::uint64_t tag,
-                                               const Result<accuracy::Measurement>& result) {
-                     self.measured(global, tag, result);
-                 }),
-                 .picked = onStrand([global](Session& self, std::uint64_t tag,
-                                             const Result<std::optional<scene::Picked>>& result) {
-                     self.picked(global, tag, result);
-                 }),
-                 .recovering = onStrand([global](Session& self) { self.recovering(global); })});
-    const std::uint32_t number = message.view();
-    spdlog::info("event=view_opened connection={} view={} global={}", number_, number,
-                 view->global);
-    View& added = *(views_[number] = std::move(view));
-    added.frames.input(now);
-    apply(added, *change);
-}
-
-void Session::updateView(const v1::Update& message, TimePoint now) {
-    View* view = findOrRefuse(message.view(), message.input_seq());
-    if (view == nullptr) return;
-    const auto change = view->scene.update(message);
-    if (!change) {
-        return send(errorMessage(change.error(),
-                                 {.view = message.view(), .inputSeq = message.input_seq()}));
-    }
-    if (*change == SceneChange::kNone) return;
-    view->inputAt = now;
-    view->frames.input(now);
-    stopMeasuring(*view, "the view changed");
-    apply(*view, *change);
-}
-
-void Session::closeView(std::uint32_t number) {
-    const View* view = findOrRefuse(number, 0);
-    if (view == nullptr) return;
-    spdlog::info("event=view_closed connection={} view={} frames={}", number_, number,
-                 view->frames.framesSent());
-    shared_.router.remove(view->global);
-    shared_.render.dropView(view->global);
-    views_.erase(number);
-}
-
-void Session::ack(const v1::Ack& message, TimePoint now) {
-    View* view = find(message.view());
-    if (view == nullptr) return;  // Of a view that was just closed.
-    view->frames.acked({.sequence = message.sequence(),
-                        .hold = std::chrono::microseconds{message.hold_us()},
-                        .queued = message.queue()},
-                       now);
-    advance(*view, now);
-}
-
 std::optional<Outgoing> Session::next(TimePoint now) {
     if (!waiting_.empty()) {
         Outgoing out{.text = form_ == Form::kJson,
-                     .head = bytesOf(writeMessage(waiting_.front(), form_)),
-                     .payload = {}};
+                     .head = bytesOf(writeMessage(waiting_.front(), form_))};
         waiting_.pop_front();
         return out;
     }
     if (closing_) return std::nullopt;
+    if (auto patch = nextPatch()) return patch;
+    for (const auto& [number, seat] : seats_) {
+        const auto mail = seat.view->takeMail(seat.viewer);
+        if (!mail) continue;
+        return Outgoing{.text = form_ == Form::kJson, .head = bytesOf(writeMessage(*mail, form_))};
+    }
     // Views take turns, beginning behind the one served last.
-    auto at = views_.upper_bound(lastServed_);
-    for (std::size_t i = 0; i < views_.size(); ++i, ++at) {
-        if (at == views_.end()) at = views_.begin();
-        View& view = *at->second;
-        auto frame = view.frames.takeFrame(now);
+    auto at = seats_.upper_bound(lastServed_);
+    for (std::size_t i = 0; i < seats_.size(); ++i, ++at) {
+        if (at == seats_.end()) at = seats_.begin();
+        auto frame = at->second.view->takeFrame(at->second.viewer, now);
         if (!frame) continue;
-        lastServed_ = view.number;
-        advance(view, now);
+        lastServed_ = at->first;
         return Outgoing{.text = false,
-                        .head = protocol::encodeFrameHead(view.number, frame->sequence,
-                                                          frame->header, form_ == Form::kJson),
+                        .head = protocol::encodeFrameHead(at->first, frame->sequence, frame->header,
+                                                          form_ == Form::kJson),
                         .payload = std::move(frame->payload)};
     }
     return std::nullopt;
@@ -257,17 +216,14 @@ void Session::tick(TimePoint now) {
         send(errorMessage(v1::ERROR_CODE_TIMEOUT, "no hello within 30 s"));
         end({kPolicyViolation, "no hello"});
     }
-    for (const auto& [number, view] : views_) {
-        view->frames.tick(now);
-        advance(*view, now);
-    }
+    for (const auto& [number, seat] : seats_) seat.view->tick(seat.viewer, now);
 }
 
 std::optional<TimePoint> Session::deadline(TimePoint now) const {
     std::optional<TimePoint> first;
     if (!greeted_) first = created_ + kHelloWithin;
-    for (const auto& [number, view] : views_) {
-        const auto one = view->frames.deadline(now);
+    for (const auto& [number, seat] : seats_) {
+        const auto one = seat.view->deadline(seat.viewer, now);
         if (one && (!first || *one < *first)) first = one;
     }
     return first;
@@ -285,21 +241,6 @@ void Session::send(const v1::ServerMessage& message) {
         return end({kPolicyViolation, "replies are not being read"});
     }
     waiting_.push_back(message);
-}
-
-Session::View* Session::find(std::uint32_t number) {
-    const auto found = views_.find(number);
-    return found == views_.end() ? nullptr : found->second.get();
-}
-
-Session::View* Session::findOrRefuse(std::uint32_t number, std::uint64_t inputSeq) {
-    View* view = find(number);
-    if (view == nullptr) {
-        send(errorMessage(v1::ERROR_CODE_NOT_FOUND,
-                          "view " + std::to_string(number) + " is not open",
-                          {.view = number, .inputSeq = inputSeq}, "view"));
-    }
-    return view;
 }
 
 }  // namespace volcast::session

@@ -12,9 +12,8 @@
 #include <vector>
 
 #include "server/session/shared.h"
-#include "server/session/view_accuracy.h"
-#include "server/session/view_frames.h"
-#include "server/session/view_scene.h"
+#include "server/session/shared_view.h"
+#include "server/session/views.h"
 #include "server/session/wire.h"
 
 namespace volcast::session {
@@ -23,7 +22,7 @@ namespace volcast::session {
 struct Outgoing {
     bool text = false;
     std::vector<std::byte> head;
-    std::vector<std::byte> payload;
+    std::shared_ptr<const std::vector<std::byte>> payload = {};  ///< Null: nothing.
 };
 
 /// How a connection is to be closed, once all that waits has been sent.
@@ -67,66 +66,50 @@ public:
     void end(Closing closing);
 
 private:
-    static constexpr std::size_t kDrawnKept = 8;
-    /// What a picture was drawn of.
-    struct Drawn {
-        std::uint64_t inputSeq = 0;
-        scene::Scene scene;
-        scene::PictureSize size{0};
-    };
-    struct View {
-        std::uint32_t number = 0;
-        std::uint64_t global = 0;  ///< Its number in the whole server.
-        ViewScene scene;
-        ViewFrames frames;
-        ViewAccuracy accuracy = {};
-        std::optional<v1::Plan> plan = {};  ///< Of the newest picture.
-        v1::ViewState state = v1::VIEW_STATE_ACTIVE;
-        bool opened = false;  ///< The client was told the scene.
-        TimePoint inputAt{};
-        std::deque<Drawn> drawn = {};  ///< Newest last; pixels are picked of these.
-        v1::Pick picking = {};         ///< The newest that was asked for.
-        std::uint64_t pickTag = 0;     ///< Of it.
+    /// This client in a view.
+    struct Seat {
+        std::shared_ptr<SharedView> view;
+        ViewerId viewer = 0;
     };
 
     Session(Shared& shared, std::uint64_t number, SessionHooks hooks);
     void start();
     void hello(const v1::Hello& message);
+    /// False where the connection ends.
+    bool identify(const v1::Hello& message);
     void welcome();
+    void comeBack(const std::map<std::uint32_t, std::string>& views);
     void openDataset(const v1::OpenDataset& message);
     void openView(const v1::OpenView& message, TimePoint now);
+    void joinView(const v1::OpenView& message, scene::PictureSize size, TimePoint now);
+    void takeSeat(std::uint32_t number, std::shared_ptr<SharedView> view, ViewerId viewer);
+    [[nodiscard]] Viewer::Desc viewerDesc(std::uint32_t number, scene::PictureSize size);
     void updateView(const v1::Update& message, TimePoint now);
     void closeView(std::uint32_t number);
     void ack(const v1::Ack& message, TimePoint now);
+
+    // session_pacing.cpp
+    static std::vector<v1::Codec> codecsHere();
+    /// Errors: kUnsupported where nothing that every server sends is among them.
+    Result<void> takeCodecs(const v1::Hello& message);
+    std::optional<Outgoing> nextPatch();
+    void patchDecoded(const v1::PatchDecoded& message);
+    void setPins(const v1::SetPins& message, TimePoint now);
+    void shareView(const v1::ShareView& message);
+    void takeControl(const v1::TakeControl& message);
+    void handOver(const v1::HandOver& message);
+    void undo(const v1::Undo& message, TimePoint now);
 
     void explain(const v1::Explain& message);
     void measureAccuracy(const v1::MeasureAccuracy& message);
     void pick(const v1::Pick& message);
     void describeShader(const v1::DescribeShader& message);
+    void injectFault(const v1::InjectFault& message);
 
     void datasetChanged(const v1::DatasetInfo& info);
-    // News come with the view's number in the whole server: its own may be in use again.
-    void rendered(const workers::RenderedFrame& frame);
-    void failed(std::uint64_t global, std::uint64_t tag, const Error& error);
-    void measured(std::uint64_t global, std::uint64_t tag,
-                  const Result<accuracy::Measurement>& result);
-    void picked(std::uint64_t global, std::uint64_t tag,
-                const Result<std::optional<scene::Picked>>& result);
-    void recovering(std::uint64_t global);
-    void encoded(std::uint64_t global, EncodedPicture picture);
-
-    void apply(View& view, SceneChange change);
-    void refuse(View& view, const Error& error, v1::ErrorCode code);
-    void setState(View& view, v1::ViewState state, const std::string& text);
-    void advance(View& view, TimePoint now);
-    static void remember(View& view, const DrawState& state);
-    void measureNext(View& view);
-    void stopMeasuring(View& view, const std::string& why);
-    void startEncode(View& view, EncodeTask task);
     void send(const v1::ServerMessage& message);
-    View* find(std::uint32_t number);
-    View* findGlobal(std::uint64_t global);
-    View* findOrRefuse(std::uint32_t number, std::uint64_t inputSeq);
+    /// Null where the view is not open, which the client is told.
+    const Seat* findOrRefuse(std::uint32_t number, std::uint64_t inputSeq);
     template <class Act>
     auto onStrand(Act act);  // on_strand.h
 
@@ -136,10 +119,14 @@ private:
     TimePoint created_ = Clock::now();
     std::uint64_t subscription_ = 0;
     bool greeted_ = false;
+    PersonBook::Arrival who_;  ///< Once greeted.
+    bool resumed_ = false;
     Form form_ = Form::kBinary;
-    ViewFrames::Codecs codecs_;
-    std::map<std::uint32_t, std::unique_ptr<View>> views_;
-    std::uint32_t lastServed_ = 0;  ///< View whose frame was sent last; views take turns.
+    ClientCodecs codecs_;
+    std::vector<v1::Codec> untried_;       ///< The client has not answered their colour patches.
+    std::deque<v1::Codec> patches_;        ///< Not sent yet.
+    std::map<std::uint32_t, Seat> seats_;  ///< By the client's numbers.
+    std::uint32_t lastServed_ = 0;         ///< View whose frame was sent last; views take turns.
     std::deque<v1::ServerMessage> waiting_;
     std::optional<Closing> closing_;
 };

@@ -1,52 +1,127 @@
-// What happens to a session's views: news of data and pictures, and the next step of each.
+// What a client asks of views and of data.
 #include <algorithm>
 #include <utility>
 
 #include <spdlog/spdlog.h>
 
-#include "renderer/base/printable.h"
-#include "renderer/worker/scene_message.h"
-#include "server/session/explain.h"
 #include "server/session/on_strand.h"
 #include "server/session/session.h"
+#include "server/session/shader_description.h"
 
 namespace volcast::session {
 
-void Session::apply(View& view, SceneChange change) {
-    if (change == SceneChange::kNone) return;
-    if (view.scene.waiting()) {
-        setState(view, v1::VIEW_STATE_WAITING, "its data is being imported");
-    } else if (view.state == v1::VIEW_STATE_WAITING) {
-        setState(view, v1::VIEW_STATE_ACTIVE, "");
-    }
-    if (change != SceneChange::kDraw || !view.scene.scene()) return;
-    if (!view.opened) {
-        view.opened = true;
-        v1::ServerMessage message;
-        message.mutable_view_opened()->set_view(view.number);
-        *message.mutable_view_opened()->mutable_scene() = worker::toMessage(*view.scene.scene());
-        send(message);
-    }
-    view.frames.want({.scene = *view.scene.scene(),
-                      .size = view.scene.size(),
-                      .inputSeq = view.scene.shownSeq(),
-                      .dataVersion = view.scene.dataVersion(),
-                      .inputAt = view.inputAt});
-    advance(view, Clock::now());
+void Session::openDataset(const v1::OpenDataset& message) {
+    const auto info = shared_.catalogue.open(message.dataset());
+    if (!info) return send(errorMessage(info.error(), {.dataset = message.dataset()}));
+    v1::ServerMessage reply;
+    *reply.mutable_dataset_info() = *info;
+    send(reply);
 }
 
-void Session::setState(View& view, v1::ViewState state, const std::string& text) {
-    if (view.state == state) return;
-    view.state = state;
-    spdlog::info(R"(event=view_state connection={} view={} state={} message="{}")", number_,
-                 view.number, v1::ViewState_Name(state), base::printable(text, 1000));
-    send(statusMessage(view.number, state, text));
+void Session::openView(const v1::OpenView& message, TimePoint now) {
+    const std::uint32_t number = message.view();
+    const ErrorContext about{
+        .view = number, .inputSeq = message.input_seq(), .dataset = message.dataset()};
+    if (number == 0) {
+        return send(errorMessage(v1::ERROR_CODE_INVALID_ARGUMENT, "view numbers begin at 1", about,
+                                 "view"));
+    }
+    if (seats_.contains(number)) {
+        return send(errorMessage(v1::ERROR_CODE_INVALID_ARGUMENT,
+                                 "view " + std::to_string(number) + " is open already", about,
+                                 "view"));
+    }
+    if (seats_.size() >= shared_.limits.maxViews) {
+        return send(errorMessage(v1::ERROR_CODE_LIMIT_EXCEEDED,
+                                 "this connection has " + std::to_string(seats_.size()) +
+                                     " views, the most that it may have",
+                                 about, "view"));
+    }
+    const auto size = sizeFrom(message.viewport(), shared_.limits.maxViewPixels);
+    if (!size) return send(errorMessage(size.error(), about));
+    if (!message.link().empty()) return joinView(message, *size, now);
+    auto view = shared_.views.open(message);
+    if (!view) return send(errorMessage(view.error(), about));
+    const auto viewer =
+        (*view)->join(viewerDesc(number, *size),
+                      {.person = who_.person, .name = who_.name, .role = v1::ROLE_CONTROL}, now);
+    if (!viewer) return send(errorMessage(viewer.error(), about));
+    takeSeat(number, std::move(*view), *viewer);
 }
 
-void Session::refuse(View& view, const Error& error, v1::ErrorCode code) {
-    send(errorMessage(code, error.message, {.view = view.number, .inputSeq = view.scene.shownSeq()},
-                      error.field));
-    setState(view, v1::VIEW_STATE_FAILED, error.message);
+Viewer::Desc Session::viewerDesc(std::uint32_t number, scene::PictureSize size) {
+    return {
+        .number = number, .codecs = codecs_, .size = size, .wake = onStrand([](const Session&) {})};
+}
+
+void Session::takeSeat(std::uint32_t number, std::shared_ptr<SharedView> view, ViewerId viewer) {
+    spdlog::info("event=view_opened connection={} number={} view={} person={}", number_, number,
+                 view->id(), who_.person);
+    shared_.views.people().opened(who_.person, number, view->id());
+    seats_[number] = {.view = std::move(view), .viewer = viewer};
+}
+
+void Session::updateView(const v1::Update& message, TimePoint now) {
+    const Seat* seat = findOrRefuse(message.view(), message.input_seq());
+    if (seat == nullptr) return;
+    const auto updated = seat->view->update(seat->viewer, message, now);
+    if (updated) return;
+    send(errorMessage(updated.error(), {.view = message.view(), .inputSeq = message.input_seq()}));
+}
+
+void Session::closeView(std::uint32_t number) {
+    const Seat* seat = findOrRefuse(number, 0);
+    if (seat == nullptr) return;
+    spdlog::info("event=view_closed connection={} view={} frames={}", number_, seat->view->id(),
+                 seat->view->framesSent(seat->viewer));
+    seat->view->leave(seat->viewer);
+    shared_.views.left(seat->view);
+    shared_.views.people().closed(who_.person, number);
+    seats_.erase(number);
+}
+
+void Session::ack(const v1::Ack& message, TimePoint now) {
+    const auto found = seats_.find(message.view());
+    if (found == seats_.end()) return;  // Of a view that was just closed.
+    const Seat& seat = found->second;
+    seat.view->acked(seat.viewer,
+                     {.sequence = message.sequence(),
+                      .hold = std::chrono::microseconds{message.hold_us()},
+                      .queued = message.queue(),
+                      .keyframe = message.keyframe()},
+                     now);
+}
+
+void Session::explain(const v1::Explain& message) {
+    const Seat* seat = findOrRefuse(message.view(), 0);
+    if (seat == nullptr) return;
+    auto plan = seat->view->explain(seat->viewer);
+    if (!plan) return send(errorMessage(plan.error(), {.view = message.view()}));
+    v1::ServerMessage reply;
+    *reply.mutable_plan() = std::move(*plan);
+    send(reply);
+}
+
+void Session::measureAccuracy(const v1::MeasureAccuracy& message) {
+    const Seat* seat = findOrRefuse(message.view(), 0);
+    if (seat == nullptr) return;
+    const auto begun = seat->view->measure(seat->viewer, message);
+    if (!begun) send(errorMessage(begun.error(), {.view = message.view()}));
+}
+
+void Session::pick(const v1::Pick& message) {
+    const Seat* seat = findOrRefuse(message.view(), 0);
+    if (seat == nullptr) return;
+    const auto asked = seat->view->pick(seat->viewer, message);
+    if (asked) return;
+    send(errorMessage(asked.error(), {.view = message.view(), .inputSeq = message.input_seq()}));
+}
+
+void Session::describeShader(const v1::DescribeShader& message) {
+    v1::ServerMessage reply;
+    *reply.mutable_shader_description() =
+        shaderDescription(message, shared_.catalogue.summaries({message.dataset()}));
+    send(reply);
 }
 
 void Session::datasetChanged(const v1::DatasetInfo& info) {
@@ -60,87 +135,14 @@ void Session::datasetChanged(const v1::DatasetInfo& info) {
     *message.mutable_dataset_info() = info;
     send(message);
     if (info.state() != v1::DATASET_STATE_READY && info.state() != v1::DATASET_STATE_FAILED) return;
-    for (const auto& [number, view] : views_) {
-        const auto change = view->scene.datasetChanged(info.id());
-        if (change) {
-            if (*change == SceneChange::kDraw) view->inputAt = Clock::now();
-            apply(*view, *change);
-        } else {
-            const bool imported = info.state() == v1::DATASET_STATE_READY;
-            refuse(*view, change.error(),
-                   imported ? wireCode(change.error().code) : v1::ERROR_CODE_IMPORT_FAILED);
-        }
-    }
+    for (const auto& [number, seat] : seats_) seat.view->datasetChanged(seat.viewer, info.id());
 }
 
-void Session::rendered(const workers::RenderedFrame& frame) {
-    View* view = findGlobal(frame.view);
-    const auto now = Clock::now();
-    if (view == nullptr || !view->frames.rendered(frame)) return;
-    view->scene.drawn(view->frames.shownSeq());
-    view->plan = planMessage(frame, view->number, view->frames.shownSeq());
-    const bool waiting = view->scene.waiting();
-    if (view->state == v1::VIEW_STATE_RECOVERING && waiting) {
-        setState(*view, v1::VIEW_STATE_WAITING, "its data is being imported");
-    } else if (!waiting) {
-        setState(*view, v1::VIEW_STATE_ACTIVE, "");
-    }
-    advance(*view, now);
-}
-
-void Session::failed(std::uint64_t global, std::uint64_t tag, const Error& error) {
-    View* view = findGlobal(global);
-    if (view == nullptr || !view->frames.failed(tag)) return;
-    Error told = error;
-    if (told.field.starts_with("layers[")) told.field = "scene." + told.field;
-    if (!view->scene.revert()) {
-        refuse(*view, told, wireCode(error.code));
-        return advance(*view, Clock::now());
-    }
-    send(errorMessage(told, {.view = view->number, .inputSeq = view->scene.shownSeq()}));
-    setState(*view, v1::VIEW_STATE_ACTIVE, "");
-    apply(*view, SceneChange::kDraw);
-}
-
-void Session::recovering(std::uint64_t global) {
-    View* view = findGlobal(global);
-    if (view == nullptr || !view->opened) return;
-    setState(*view, v1::VIEW_STATE_RECOVERING, "the renderer was lost and is being replaced");
-}
-
-void Session::encoded(std::uint64_t global, EncodedPicture picture) {
-    View* view = findGlobal(global);
-    if (view == nullptr) return;
-    if (const auto error = view->frames.encoded(std::move(picture))) {
-        refuse(*view, *error, v1::ERROR_CODE_RENDER_FAILED);
-    }
-    advance(*view, Clock::now());
-}
-
-void Session::advance(View& view, TimePoint now) {
-    std::uint64_t tag = 0;
-    if (auto state = view.frames.takeDraw(now, tag)) {
-        remember(view, *state);
-        shared_.render.submit({.view = view.global,
-                               .tag = tag,
-                               .scene = std::move(state->scene),
-                               .size = state->size});
-    }
-    if (auto task = view.frames.takeEncode(now)) startEncode(view, std::move(*task));
-}
-
-void Session::startEncode(View& view, EncodeTask task) {
-    auto bring = onStrand([global = view.global](Session& self, EncodedPicture picture) {
-        self.encoded(global, std::move(picture));
-    });
-    shared_.encoders.run(
-        [bring = std::move(bring), task = std::move(task)] { bring(encode(task)); });
-}
-
-Session::View* Session::findGlobal(std::uint64_t global) {
-    for (const auto& [number, view] : views_) {
-        if (view->global == global) return view.get();
-    }
+const Session::Seat* Session::findOrRefuse(std::uint32_t number, std::uint64_t inputSeq) {
+    const auto found = seats_.find(number);
+    if (found != seats_.end()) return &found->second;
+    send(errorMessage(v1::ERROR_CODE_NOT_FOUND, "view " + std::to_string(number) + " is not open",
+                      {.view = number, .inputSeq = inputSeq}, "view"));
     return nullptr;
 }
 

@@ -1,14 +1,19 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <string>
 
 #include "server/session/catalogue.h"
 #include "server/session/encode_pool.h"
 #include "server/session/view_router.h"
+#include "server/workers/fault_switch.h"
 #include "server/workers/render_service.h"
 
 namespace volcast::session {
+
+class Views;
 
 /// What one connection may ask for; told to clients in the welcome.
 struct SessionLimits {
@@ -18,15 +23,27 @@ struct SessionLimits {
     std::size_t maxWaitingMessages = 1024;  ///< Replies that the client has not read yet.
 };
 
-/// What all sessions of a server share; all of it outlives them.
-struct Shared {
+/// What views are made of; all of it outlives them.
+struct ViewParts {
     workers::RenderService& render;
     Catalogue& catalogue;
     ViewRouter& router;
     EncodePool& encoders;
+    std::uint64_t maxPixels = SessionLimits{}.maxViewPixels;
+    std::size_t maxPeople = 256;  ///< In one view.
+    /// The view `id` has something new to save; called without locks of views.
+    std::function<void(const std::string& id)> changed = {};
+};
+
+/// What all sessions of a server share; all of it outlives them.
+struct Shared {
+    workers::RenderService& render;
+    Catalogue& catalogue;
+    Views& views;
     SessionLimits limits;
-    std::string server;     ///< Name and version.
-    std::string sourceUrl;  ///< Where the source of this server is.
+    std::string server;                      ///< Name and version.
+    std::string sourceUrl;                   ///< Where the source of this server is.
+    workers::FaultSwitch* faults = nullptr;  ///< Null: nobody may inject faults.
 };
 
 }  // namespace volcast::session

@@ -19,6 +19,26 @@ std::vector<std::string> datasetsOf(const scene::Scene& scene) {
     return {ids.begin(), ids.end()};
 }
 
+bool shownByCode(const scene::Layer& layer) {
+    return layer.visible && scene::runsUserCode(layer);
+}
+
+/// The codes that a scene runs.
+std::vector<std::string> codesOf(const scene::Scene& scene) {
+    std::vector<std::string> codes;
+    for (const scene::Layer& layer : scene.layers) {
+        if (shownByCode(layer)) codes.push_back(layer.shader.code);
+    }
+    return codes;
+}
+
+scene::Scene withoutCode(scene::Scene scene) {
+    for (scene::Layer& layer : scene.layers) {
+        if (shownByCode(layer)) layer.visible = false;
+    }
+    return scene;
+}
+
 /// The error with its field as a path from the message.
 Error within(const std::string& part, Error error) {
     if (error.field.empty()) {
@@ -35,7 +55,7 @@ std::vector<std::string> ViewScene::Waiting::datasets() const {
     return scene ? datasetsOf(*scene) : std::vector{defaultOf};
 }
 
-Result<scene::PictureSize> ViewScene::sizeFrom(const v1::Viewport& message) const {
+Result<scene::PictureSize> sizeFrom(const v1::Viewport& message, std::uint64_t maxPixels) {
     // Beyond int the side is too long anyway, and says so as the largest int.
     const auto side = [](std::uint32_t pixels) {
         return static_cast<int>(std::min(pixels, std::uint32_t{0x7fffffff}));
@@ -43,10 +63,10 @@ Result<scene::PictureSize> ViewScene::sizeFrom(const v1::Viewport& message) cons
     const scene::PictureSize size{side(message.width()), side(message.height())};
     if (const auto valid = scene::validate(size); !valid) return within("viewport", valid.error());
     const std::uint64_t pixels = std::uint64_t{message.width()} * message.height();
-    if (pixels > maxPixels_) {
+    if (pixels > maxPixels) {
         return fail(ErrorCode::kLimitExceeded,
                     "a view of " + std::to_string(pixels) + " pixels; the limit is " +
-                        std::to_string(maxPixels_),
+                        std::to_string(maxPixels),
                     "viewport");
     }
     return size;
@@ -95,8 +115,6 @@ Result<SceneChange> ViewScene::accept(Waiting next) {
 }
 
 Result<SceneChange> ViewScene::open(const v1::OpenView& message) {
-    const auto size = sizeFrom(message.viewport());
-    if (!size) return size.error();
     Waiting next;
     if (message.has_scene()) {
         auto scene = worker::sceneFrom(message.scene());
@@ -113,19 +131,12 @@ Result<SceneChange> ViewScene::open(const v1::OpenView& message) {
     }
     const auto change = accept(std::move(next));
     if (!change) return change.error();
-    size_ = *size;
     inputSeq_ = sceneSeq_ = message.input_seq();
     return *change;
 }
 
 Result<SceneChange> ViewScene::update(const v1::Update& message) {
     if (message.input_seq() <= inputSeq_) return SceneChange::kNone;
-    scene::PictureSize size = size_;
-    if (message.has_viewport()) {
-        const auto wanted = sizeFrom(message.viewport());
-        if (!wanted) return wanted.error();
-        size = *wanted;
-    }
     std::optional<scene::Camera> camera;
     if (message.has_camera()) {
         const auto wanted = worker::cameraFrom(message.camera());
@@ -146,10 +157,22 @@ Result<SceneChange> ViewScene::update(const v1::Update& message) {
         if (waiting_->scene) waiting_->scene->camera = *camera;
         waiting_->camera = camera;
     }
-    size_ = size;
     inputSeq_ = message.input_seq();
     if (message.has_scene()) sceneSeq_ = inputSeq_;
     return change;
+}
+
+Result<SceneChange> ViewScene::put(scene::Scene scene, std::uint64_t seq) {
+    const auto change = accept({.scene = std::move(scene), .seqBefore = shownSeq()});
+    if (!change) return change.error();
+    inputSeq_ = sceneSeq_ = seq;
+    return *change;
+}
+
+bool ViewScene::advance(std::uint64_t seq) {
+    if (seq <= inputSeq_) return false;
+    inputSeq_ = seq;
+    return true;
 }
 
 Result<SceneChange> ViewScene::datasetChanged(const std::string& id) {
@@ -180,18 +203,27 @@ void ViewScene::take(scene::Scene scene) {
 
 void ViewScene::drawn(std::uint64_t seq) {
     if (isGood_ || seq < sceneSeq_) return;
+    if (good_ && codesOf(*good_) != codesOf(*scene_)) other_ = std::move(good_);
     good_ = scene_;
     isGood_ = true;
 }
 
-bool ViewScene::revert() {
-    const bool runsCode = scene_ && std::ranges::any_of(scene_->layers, scene::runsUserCode);
-    if (!runsCode || isGood_ || !good_) return false;
+std::optional<std::uint64_t> ViewScene::revert() {
+    if (!scene_ || !good_ || (isGood_ && codesOf(*scene_).empty())) return std::nullopt;
     const scene::Camera camera = scene_->camera;
+    if (isGood_) {
+        good_ = other_ ? std::exchange(other_, std::nullopt) : withoutCode(*scene_);
+    }
     scene_ = good_;
     scene_->camera = camera;
     isGood_ = true;
-    return true;
+    return sceneSeq_;
+}
+
+std::vector<std::string> ViewScene::datasets() const {
+    std::vector<std::string> all = scene_ ? datasetsOf(*scene_) : std::vector<std::string>{};
+    if (waiting_) std::ranges::copy(waiting_->datasets(), std::back_inserter(all));
+    return all;
 }
 
 std::uint64_t ViewScene::dataVersion() const {

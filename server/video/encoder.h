@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -21,5 +22,12 @@ Result<std::vector<std::byte>> encodeJpeg(const ImageView& image, int quality = 
 
 /// PNG RGBA8, Up filter, libdeflate level 1: lossless. Errors: as encodeJpeg.
 Result<std::vector<std::byte>> encodePng(const ImageView& image);
+
+/// WebP RGBA8, lossless, colours of transparent pixels included. Errors: as encodeJpeg;
+/// kInvalidArgument for sides over 16383, too.
+Result<std::vector<std::byte>> encodeWebp(const ImageView& image);
+
+/// XXH32 (seed 0) of the bytes: by it a client proves that it shows these very pixels.
+std::uint32_t pixelHash(const ImageView& image);
 
 }  // namespace volcast::video

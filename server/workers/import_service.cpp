@@ -174,7 +174,11 @@ Result<ImportedDataset> runImport(
     const std::function<void(const std::string& stage, double fraction)>& progress) {
     auto pair = worker::Channel::createPair();
     if (!pair) return pair.error();
-    auto child = ChildProcess::spawn(spawnDesc(request, settings, pair->theirs.get()));
+    SpawnDesc desc = spawnDesc(request, settings, pair->theirs.get());
+    if (const auto fault = settings.fault ? settings.fault() : std::nullopt) {
+        desc.arguments.insert(desc.arguments.begin(), "--fault=" + worker::toText(*fault));
+    }
+    auto child = ChildProcess::spawn(desc);
     if (!child) return child.error();
     pair->theirs = {};  // Else its end would not be noticed.
     auto word = listen(pair->ours, *child, request, settings, progress);

@@ -4,12 +4,14 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "renderer/base/file_descriptor.h"
 #include "renderer/base/result.h"
 #include "renderer/data/dataset.h"
+#include "renderer/worker/fault_names.h"
 
 namespace volcast::workers {
 
@@ -24,6 +26,8 @@ struct ImportSettings {
     std::string importPath;  ///< Empty: `volcast-import` beside this program.
     std::chrono::milliseconds deadline{120'000};
     std::uint64_t maxMemoryBytes = std::uint64_t{8} << 30;
+    /// Asked once for each import, on its thread: how it is to fail. Empty: no import is.
+    std::function<std::optional<worker::FaultSpec>()> fault = {};
 };
 
 struct ImportedDataset {

@@ -1,6 +1,5 @@
 #include "server/workers/isolating_service.h"
 
-#include <algorithm>
 #include <deque>
 #include <fcntl.h>
 #include <future>
@@ -17,10 +16,6 @@
 
 namespace volcast::workers {
 namespace {
-
-bool runsCode(const scene::Scene& scene) {
-    return std::ranges::any_of(scene.layers, scene::runsUserCode);
-}
 
 base::FileDescriptor copyOf(const base::FileDescriptor& descriptor) {
     return base::FileDescriptor{::fcntl(descriptor.get(), F_DUPFD_CLOEXEC, 0)};
@@ -111,6 +106,13 @@ public:
         end(view);
     }
 
+    void injectFault(std::uint64_t view, const worker::FaultSpec& fault) override {
+        const std::scoped_lock lock{mutex_};
+        const auto own = own_.find(view);
+        const bool isOwn = own != own_.end() && own->second->service;
+        (isOwn ? own->second->service : shared_)->injectFault(view, fault);
+    }
+
     /// Of the worker that most views share.
     [[nodiscard]] RenderStatus status() const override { return shared_->status(); }
 
@@ -118,17 +120,17 @@ private:
     /// Why the request is refused; nothing where it was taken.
     std::optional<Error> submitOwn(RenderRequest& request) {
         const std::scoped_lock lock{mutex_};
-        if (quarantine_.holds(request.scene)) {
-            return fail(ErrorCode::kDeviceLost,
-                        "this shader code took down two GL workers and is not run again");
+        if (const auto layer = quarantine_.find(request.scene)) {
+            return quarantined(request.scene, *layer, {});
         }
         const std::uint64_t view = request.view;
         std::shared_ptr<OwnService>& own = own_[view];
         if (own == nullptr && own_.size() > kMaxOwnWorkers) {
             own_.erase(view);
-            return fail(ErrorCode::kLimitExceeded, "shader code runs in " +
-                                                       std::to_string(kMaxOwnWorkers) +
-                                                       " views already, the most at a time");
+            return fail(ErrorCode::kLimitExceeded,
+                        "shader code runs in " + std::to_string(kMaxOwnWorkers) +
+                            " views already, the most at a time",
+                        "scene");
         }
         const bool fresh = own == nullptr;
         if (fresh) own = std::make_shared<OwnService>();
@@ -172,21 +174,27 @@ private:
         events.failed = [this, view](std::uint64_t of, std::uint64_t tag, Error error) {
             if (error.code == ErrorCode::kDeviceLost) {
                 const std::scoped_lock lock{mutex_};
-                quarantine(view, tag);
-                spdlog::warn("shader code of view {} is in quarantine: {}", view, error.message);
+                error = quarantine(view, tag, std::move(error));
+                spdlog::warn("view {}: {}", view, error.message);
             }
             events_.failed(of, tag, std::move(error));
         };
         return events;
     }
 
-    /// Needs the lock.
-    void quarantine(std::uint64_t view, std::uint64_t tag) {
+    /// Takes the code of a request over which two workers were lost out of use; the error that
+    /// names it. Needs the lock.
+    Error quarantine(std::uint64_t view, std::uint64_t tag, Error error) {
         const auto own = own_.find(view);
-        if (own == own_.end()) return;
+        if (own == own_.end()) return error;
         for (const auto& [asked, scene] : own->second->asked) {
-            if (asked == tag) quarantine_.add(scene);
+            if (asked != tag) continue;
+            quarantine_.add(scene);
+            if (const auto layer = quarantine_.find(scene)) {
+                error = quarantined(scene, *layer, error.message);
+            }
         }
+        return error;
     }
 
     /// Ends the view's own service, if it has one, without waiting for that.

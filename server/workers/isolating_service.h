@@ -13,7 +13,8 @@ inline constexpr std::size_t kMaxOwnWorkers = 8;
 /// draw that hangs there stalls no other view, which it would within one process. All other views
 /// share one service.
 ///
-/// Code over which two workers were lost is not run again: kDeviceLost at once. A view that finds
+/// Code over which two workers were lost is not run again with the same states of its controls:
+/// kDeviceLost at once, which names it. A view that finds
 /// kMaxOwnWorkers taken fails with kLimitExceeded. The worker ends when the view is dropped or its
 /// scene runs no code any more.
 ///

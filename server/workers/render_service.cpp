@@ -101,6 +101,14 @@ public:
         wake();
     }
 
+    void injectFault(std::uint64_t /*view*/, const worker::FaultSpec& fault) override {
+        {
+            const std::scoped_lock lock{mutex_};
+            inbox_.faults.push_back(fault);
+        }
+        wake();
+    }
+
     void dropView(std::uint64_t view) override {
         {
             const std::scoped_lock lock{mutex_};

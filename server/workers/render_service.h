@@ -14,6 +14,7 @@
 #include "renderer/plan/plan.h"
 #include "renderer/scene/picked.h"
 #include "renderer/scene/scene.h"
+#include "renderer/worker/fault_names.h"
 #include "renderer/worker/pick_message.h"
 
 namespace volcast::workers {
@@ -69,8 +70,9 @@ inline constexpr std::uint64_t kLeastVolumeBudgetMib = 16;
 inline constexpr std::uint64_t kMostVolumeBudgetMib = std::uint64_t{1} << 20;
 
 struct RenderSettings {
-    std::string workerPath;   ///< Empty: `volcast-worker` beside this program.
-    std::string gpu;          ///< Empty: surfaceless; else a device as `doctor` lists it.
+    std::string workerPath;  ///< Empty: `volcast-worker` beside this program.
+    /// Empty: surfaceless; "software", or a device as `doctor` lists it.
+    std::string gpu;
     std::string cacheFolder;  ///< For the driver's shader cache; empty: a private temporary one.
     std::chrono::milliseconds frameDeadline{10'000};  ///< Upload, compile, link and draw together.
     std::chrono::milliseconds startDeadline{20'000};
@@ -79,6 +81,7 @@ struct RenderSettings {
     std::chrono::milliseconds heartbeatInterval{1'000};  ///< An idle worker is asked this often.
     std::chrono::milliseconds heartbeatDeadline{3'000};  ///< And has this long to answer.
     bool warmSpare = true;
+    std::optional<worker::FaultSpec> fault;  ///< Armed in each worker from its start.
     std::string shaderFolder;  ///< Chunks are read from here; empty: the embedded ones.
     /// Of GPU memory: a channel of voxels that takes more is drawn from a pool of bricks of so
     /// much.
@@ -91,8 +94,10 @@ struct RenderStatus {
     std::uint32_t losses = 0;  ///< Workers lost since start.
     bool spareReady = false;
     int workerPid = 0;  ///< Of the one that draws now; 0: none.
+    int sparePid = 0;   ///< Of the one that waits, ready or not; 0: none.
     std::string glRenderer, glVersion;
-    std::string lastLoss;  ///< "killed by signal 9", "missed its deadline of 10000 ms".
+    std::string lastLoss;    ///< "killed by signal 9", "missed its deadline of 10000 ms".
+    std::string gpuGivenUp;  ///< Why the software device draws in the place of a GPU; empty: no.
 };
 
 /// Calls back on the service's own thread; must return soon and may call the service.
@@ -143,6 +148,9 @@ public:
     /// Between pictures; replaces a request of the view that waits, which then is not answered.
     virtual void pick(PickRequest request) = 0;
     virtual void dropView(std::uint64_t view) = 0;
+    /// Arms `fault` in the worker that draws `view`, or in its spare. A service without workers
+    /// has none that could fail.
+    virtual void injectFault(std::uint64_t /*view*/, const worker::FaultSpec& /*fault*/) {}
     [[nodiscard]] virtual RenderStatus status() const = 0;
 
 protected:

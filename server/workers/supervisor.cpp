@@ -20,11 +20,7 @@ namespace {
 using std::chrono::milliseconds;
 using Clock = Supervisor::Clock;
 
-/// A spare starts a little later, so as not to take the processor from the first pictures.
-constexpr milliseconds kSpareDelay{300};
 constexpr milliseconds kFirstSpareDelay{1'000};
-/// After so many workers in a row that died before they were ready, requests fail.
-constexpr int kFailuresToGiveUp = 3;
 /// A process whose channel is closed is about to end; it has this long to say how.
 constexpr milliseconds kEndGrace{200};
 constexpr milliseconds kLongestWait{60'000};
@@ -51,12 +47,18 @@ WorkDone workFrom(const internal::v1::Counters& message) {
 
 Result<void> Supervisor::begin() {
     generation_ = 1;
-    start(main_);
-    while (main_ && !main_->ready()) {
-        wait();
-        serve(main_);
-        checkTimes();
-        reapDying();
+    // A worker that dies on a GPU and does not say why may live on its next try; else the software
+    // device follows. What one says of itself is the answer.
+    for (std::size_t tries = 0; tries <= GpuTrust::kMostLosses && !main_; ++tries) {
+        if (tries > 0 && startError_ && startError_->code != ErrorCode::kIo) break;
+        if (tries > 0 && !onGpu() && gpuGivenUp_.empty()) break;
+        start(main_);
+        while (main_ && !main_->ready()) {
+            wait();
+            serve(main_);
+            checkTimes();
+            reapDying();
+        }
     }
     if (main_) return {};
     return startError_.value_or(fail(ErrorCode::kIo, "the GL worker cannot be started"));
@@ -118,19 +120,34 @@ void Supervisor::accept(Inbox& inbox) {
     for (const Inbox::DatasetChange& dataset : inbox.datasets) change(dataset);
     for (const std::uint64_t view : inbox.droppedViews) {
         views_.drop(view);
+        gpuTrust_.forget(view);
         stopMeasure(view);
         picks_.erase(view);
         if (main_) main_->dropView(view);
     }
     for (auto& [view, timed] : inbox.requests) {
-        views_.submit(std::move(timed.request), timed.submitted);
+        submit(std::move(timed));
+    }
+    for (const worker::FaultSpec& fault : inbox.faults) {
+        Worker& struck = struckBy(fault.fault) == worker::FaultyProcess::kSpare ? spare_ : main_;
+        if (struck) struck->arm(fault);
     }
     for (const std::uint64_t view : inbox.stoppedMeasures) stopMeasure(view);
     for (auto& [view, request] : inbox.measures) measures_.submit(std::move(request));
     for (auto& [view, request] : inbox.picks) picks_[view] = std::move(request);
 }
 
+void Supervisor::submit(TimedRequest timed) {
+    const RenderRequest& request = timed.request;
+    if (!views_.holds(request)) return views_.submit(std::move(timed.request), timed.submitted);
+    if (!events_.failed) return;
+    events_.failed(request.view, request.tag,
+                   fail(ErrorCode::kDeviceLost,
+                        "this took down two GL workers before and is not drawn again", "scene"));
+}
+
 void Supervisor::change(const Inbox::DatasetChange& change) {
+    views_.forgive();
     if (change.packed) {
         datasets_[change.id] = change.packed;
     } else {
@@ -195,6 +212,7 @@ void Supervisor::becomeReady(Worker& worker) {
     everReady_ = true;
     startError_.reset();
     backOff_.succeeded();
+    software_ = worker->about().software();
     spdlog::info("GL worker {} ready after {:.0f} ms: {} ({})", worker->pid(),
                  worker->about().start_ms(), worker->about().gl_renderer(),
                  &worker == &main_ ? "drawing" : "spare");
@@ -205,19 +223,24 @@ void Supervisor::finish(const internal::v1::Rendered& rendered) {
     if (!inFlight_ || rendered.request() != inFlight_->number) {
         return lose(main_, "drew a picture nobody asked for");
     }
+    // Before it counts as drawn: a worker that is lost over it is lost by this view.
+    if (const auto valid = main_->checkPicture(rendered, inFlight_->request); !valid) {
+        return lose(main_, valid.error().message);
+    }
     const InFlight done = *std::exchange(inFlight_, std::nullopt);
     const bool wanted = views_.knows(done.request.view);
+    gpuTrust_.drew(done.request.view);
+    judgeGpu(lastLoss_);
     views_.succeeded(done.request);
     dispatch();  // Into the other slot, while this one is copied.
     if (!wanted) return;
 
     const auto before = Clock::now();
     auto picture = main_->copyPicture(rendered, done.request);
-    if (!picture && picture.error().code == ErrorCode::kLimitExceeded) {
+    if (!picture) {
         if (events_.failed) events_.failed(done.request.view, done.request.tag, picture.error());
         return;
     }
-    if (!picture) return lose(main_, picture.error().message);
     RenderedFrame frame;
     frame.view = done.request.view;
     frame.tag = done.request.tag;
@@ -297,79 +320,12 @@ void Supervisor::startWorkers() {
 void Supervisor::start(Worker& worker) {
     auto started = WorkerProcess::start(settings_, cacheFolder_);
     if (!started) return startFailed(started.error());
+    startError_.reset();
     worker = *std::move(started);
     for (const auto& [id, packed] : datasets_) {
         worker->addDataset(id, packed, settings_.datasetDeadline);
     }
     static_cast<void>(worker->flush());
-}
-
-void Supervisor::startFailed(const Error& error) {
-    startError_ = error;
-    backOff_.failed();
-    startAllowed_ = spareAllowed_ = Clock::now() + backOff_.delay();
-    if (!everReady_) return;  // begin() hands the error to its caller.
-    spdlog::error("GL worker cannot be started: {}; next try in {} ms", error.message,
-                  backOff_.delay().count());
-    if (main_ || backOff_.failures() < kFailuresToGiveUp) return;
-    const Error lost =
-        fail(ErrorCode::kDeviceLost, "the lost GL worker cannot be replaced: " + error.message);
-    for (const MeasureRequest& request : measures_.takeAll()) tell(request, lost);
-    for (const auto& [view, request] : std::exchange(picks_, {})) tell(request, lost);
-    for (const RenderRequest& request : views_.takeAll()) {
-        if (!events_.failed) break;
-        events_.failed(request.view, request.tag, lost);
-    }
-}
-
-void Supervisor::lose(Worker& worker, const std::string& reason) {
-    const bool isMain = &worker == &main_;
-    const bool wasReady = worker->ready();
-    const int pid = worker->pid();
-    ChildProcess child = worker->takeChild();
-    worker.reset();
-    child.kill();
-    dying_.push_back(std::move(child));
-    if (wasReady) {
-        ++losses_;
-        lastLoss_ = reason;
-        spdlog::warn("GL worker {} ({}) {}", pid, isMain ? "drawing" : "spare", reason);
-        spareAllowed_ = Clock::now() + kSpareDelay;
-    } else {
-        startFailed(startError_.value_or(
-            fail(reason.starts_with("was not ready") ? ErrorCode::kTimeout : ErrorCode::kIo,
-                 "GL worker " + reason)));
-    }
-    if (!isMain) return;
-    main_ = std::exchange(spare_, std::nullopt);
-    if (wasReady) loseMain();
-}
-
-void Supervisor::loseMain() {
-    ++generation_;
-    const auto unmeasured = measures_.lost(Clock::now());
-    const auto unpicked = std::exchange(pickInHand_, std::nullopt);
-    auto inFlight = std::exchange(inFlight_, std::nullopt);
-    std::optional<RenderRequest> request;
-    if (inFlight) request = std::move(inFlight->request);
-    const ViewQueue::Loss loss = views_.lost(std::move(request), Clock::now());
-    startWorkers();
-    dispatch();
-    if (events_.recovering && !loss.views.empty()) events_.recovering(loss.views);
-    if (unpicked) {
-        tell(unpicked->request,
-             fail(ErrorCode::kDeviceLost, "the GL worker was lost: " + lastLoss_));
-    }
-    for (const MeasureRequest& givenUp : unmeasured) {
-        tell(givenUp, fail(ErrorCode::kDeviceLost, "the GL worker was lost: " + lastLoss_));
-    }
-    for (const RenderRequest& givenUp : loss.givenUp) {
-        if (!events_.failed) break;
-        events_.failed(
-            givenUp.view, givenUp.tag,
-            fail(ErrorCode::kDeviceLost,
-                 "drawing this took down two GL workers in a row; the last one " + lastLoss_));
-    }
 }
 
 void Supervisor::reapDying() {
@@ -383,11 +339,13 @@ RenderStatus Supervisor::status() const {
     status.losses = losses_;
     status.spareReady = spare_ && spare_->ready() && spare_->warm();
     status.workerPid = main_ ? main_->pid() : 0;
+    status.sparePid = spare_ ? spare_->pid() : 0;
     if (status.ready) {
         status.glRenderer = main_->about().gl_renderer();
         status.glVersion = main_->about().gl_version();
     }
     status.lastLoss = lastLoss_;
+    status.gpuGivenUp = gpuGivenUp_;
     return status;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "server/workers/back_off.h"
+#include "server/workers/gpu_trust.h"
 #include "server/workers/measure_queue.h"
 #include "server/workers/private_folder.h"
 #include "server/workers/view_queue.h"
@@ -23,6 +24,7 @@ struct Inbox {
     std::vector<DatasetChange> datasets;
     std::vector<std::uint64_t> droppedViews;
     std::vector<std::uint64_t> stoppedMeasures;        ///< By view, before those below.
+    std::vector<worker::FaultSpec> faults;             ///< Before the requests below.
     std::map<std::uint64_t, TimedRequest> requests;    ///< Newest of each view.
     std::map<std::uint64_t, MeasureRequest> measures;  ///< Newest of each view.
     std::map<std::uint64_t, PickRequest> picks;        ///< Newest of each view.
@@ -53,6 +55,9 @@ public:
     [[nodiscard]] RenderStatus status() const;
 
 private:
+    /// A spare starts a little later, so as not to take the processor from the first pictures.
+    static constexpr std::chrono::milliseconds kSpareDelay{300};
+
     using Worker = std::optional<WorkerProcess>;
     struct InFlight {
         RenderRequest request;
@@ -86,9 +91,15 @@ private:
     void start(Worker& worker);
     void becomeReady(Worker& worker);
     void reapDying();
+    /// Where the GPU has lost too many workers, the next ones get the software device.
+    void judgeGpu(const std::string& reason);
+    void submit(TimedRequest timed);
+    /// The device of new workers may be a GPU.
+    [[nodiscard]] bool onGpu() const;
 
     /// The worker is gone or has to go: its end, its successor, and what to draw again.
     void lose(Worker& worker, const std::string& reason);
+    void retire(Worker& worker);
     void loseMain();
     void startFailed(const Error& error);
     [[nodiscard]] Clock::time_point nextTime() const;
@@ -111,6 +122,9 @@ private:
     bool justPicked_ = false;                     ///< A picture comes before the next pick.
     std::uint64_t nextNumber_ = 1;
 
+    GpuTrust gpuTrust_;
+    std::string gpuGivenUp_;        ///< Why; empty: it is not.
+    std::optional<bool> software_;  ///< Of the newest worker that was ready.
     BackOff backOff_;
     Clock::time_point startAllowed_ = Clock::now();
     Clock::time_point spareAllowed_ = Clock::now();

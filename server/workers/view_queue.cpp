@@ -16,6 +16,31 @@ void ViewQueue::wait(std::uint64_t id, View& view, TimedRequest request) {
     view.waiting = std::move(request);
 }
 
+bool ViewQueue::same(const Held& held, const RenderRequest& request) {
+    if (held.size != request.size) return false;
+    scene::Scene scene = request.scene;
+    if (held.fromAnywhere) scene.camera = held.scene.camera;
+    return held.scene == scene;
+}
+
+bool ViewQueue::holds(const RenderRequest& request) const {
+    const auto view = views_.find(request.view);
+    return view != views_.end() && std::ranges::any_of(view->second.held, [&](const Held& held) {
+               return same(held, request);
+           });
+}
+
+void ViewQueue::hold(View& view, const RenderRequest& request) {
+    Held held{.scene = request.scene, .size = request.size};
+    held.fromAnywhere = !view.lastGood || !same(held, *view.lastGood);
+    if (view.held.size() == kMostHeld) view.held.pop_front();
+    view.held.push_back(std::move(held));
+}
+
+void ViewQueue::forgive() {
+    for (auto& [id, view] : views_) view.held.clear();
+}
+
 void ViewQueue::submit(RenderRequest request, Clock::time_point now) {
     const std::uint64_t id = request.view;
     wait(id, views_[id], {.request = std::move(request), .submitted = now});
@@ -57,12 +82,16 @@ ViewQueue::Loss ViewQueue::lost(std::optional<RenderRequest> inFlight, Clock::ti
     if (found == views_.end()) return loss;
 
     View& view = found->second;
+    loss.proven = view.lastGood && view.lastGood->scene == inFlight->scene &&
+                  view.lastGood->size == inFlight->size;
     std::erase(turns_, suspect);
     if (++view.lossesInARow >= kLossesToGiveUp) {
         view.lossesInARow = kLossesToGiveUp - 1;
+        if (!loss.proven) hold(view, *inFlight);
         loss.givenUp.push_back(*std::move(inFlight));
-        if (view.waiting) loss.givenUp.push_back(std::move(view.waiting->request));
-        view.waiting.reset();
+        const bool sameWaits = view.waiting && (loss.proven || holds(view.waiting->request));
+        if (sameWaits) loss.givenUp.push_back(std::exchange(view.waiting, {})->request);
+        if (view.waiting) turns_.push_back(suspect);
         return loss;
     }
     if (!view.waiting) view.waiting = {.request = *std::move(inFlight), .submitted = now};

@@ -25,6 +25,12 @@ class ViewQueue {
 public:
     using Clock = std::chrono::steady_clock;
 
+    /// True for what has taken two workers down: it is not to be submitted. A moved camera does not
+    /// make it another request, unless the view has drawn the same from elsewhere.
+    [[nodiscard]] bool holds(const RenderRequest& request) const;
+    /// Data has changed: what was held may be another picture now.
+    void forgive();
+
     /// Replaces the view's request that has not been taken yet.
     void submit(RenderRequest request, Clock::time_point now);
     /// Forgets the view.
@@ -40,25 +46,36 @@ public:
 
     /// What to tell after a loss.
     struct Loss {
-        std::vector<std::uint64_t> views;    ///< All known views; they will be drawn again.
-        std::vector<RenderRequest> givenUp;  ///< These lost two workers in a row.
+        std::vector<std::uint64_t> views;  ///< All known views; they will be drawn again.
+        std::vector<RenderRequest>
+            givenUp;         ///< One that lost two workers, and the same if it waited.
+        bool proven = true;  ///< Nothing was in flight but what had been drawn before.
     };
     /// A worker was lost, with `inFlight` in its hands if it had one. The last request of every
     /// view waits again afterwards; the view in flight comes last.
     ///
-    /// A view that has lost two workers in a row is given up. It may try again, but until it
-    /// succeeds each further loss gives it up at once.
+    /// A request that has lost two workers in a row is given up and held. Its view may try others,
+    /// but until one succeeds each further loss gives it up at once.
     Loss lost(std::optional<RenderRequest> inFlight, Clock::time_point now);
 
     /// Takes all waiting requests, to fail them.
     std::vector<RenderRequest> takeAll();
 
 private:
+    static constexpr std::size_t kMostHeld = 8;  ///< Of one view; the oldest is forgiven.
+    struct Held {
+        scene::Scene scene;
+        scene::PictureSize size;
+        bool fromAnywhere = true;  ///< The camera does not matter.
+    };
     struct View {
         std::optional<TimedRequest> waiting;
         std::optional<RenderRequest> lastGood;
         int lossesInARow = 0;
+        std::deque<Held> held = {};
     };
+    static bool same(const Held& held, const RenderRequest& request);
+    static void hold(View& view, const RenderRequest& request);
     void wait(std::uint64_t id, View& view, TimedRequest request);
 
     std::map<std::uint64_t, View> views_;

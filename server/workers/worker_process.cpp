@@ -1,5 +1,6 @@
 #include "server/workers/worker_process.h"
 
+#include <algorithm>
 #include <new>
 #include <utility>
 
@@ -26,6 +27,9 @@ SpawnDesc spawnDesc(const RenderSettings& settings, const std::string& cacheFold
     desc.arguments = {"--cache-dir", cacheFolder, "--volume-budget",
                       std::to_string(settings.volumeBudgetBytes)};
     if (!settings.gpu.empty()) desc.arguments.insert(desc.arguments.end(), {"--gpu", settings.gpu});
+    if (settings.fault) {
+        desc.arguments.insert(desc.arguments.end(), {"--fault", worker::toText(*settings.fault)});
+    }
     if (!settings.shaderFolder.empty()) {
         desc.arguments.insert(desc.arguments.end(), {"--shader-dir", settings.shaderFolder});
     }
@@ -112,10 +116,19 @@ Result<SharedDescriptor> WorkerProcess::prepareSlot(std::size_t bytes) {
     slot.mapping = {};
     auto memory = base::createMemfd("volcast frame", bytes);
     if (!memory) return std::move(memory).error();
-    auto mapping = base::map(*memory, false);
+    auto mapping = base::map(*memory, true);
     if (!mapping) return std::move(mapping).error();
     slot.mapping = *std::move(mapping);
     return std::make_shared<const base::FileDescriptor>(*std::move(memory));
+}
+
+void WorkerProcess::markSlot(std::size_t colourBytes) {
+    Slot& slot = slots_[slot_];
+    for (std::byte& byte : slot.mark) byte = static_cast<std::byte>(marks_());
+    if (colourBytes < 2 * slot.mark.size()) return;
+    const std::span<std::byte> colours = slot.mapping.bytes.first(colourBytes);
+    std::ranges::copy(slot.mark, colours.begin());
+    std::ranges::copy(slot.mark, colours.last(slot.mark.size()).begin());
 }
 
 Result<void> WorkerProcess::render(std::uint64_t number, const RenderRequest& request,
@@ -135,6 +148,7 @@ Result<void> WorkerProcess::render(std::uint64_t number, const RenderRequest& re
     auto memory = prepareSlot(worker::slotBytes(request.size, request.wantFloat));
     if (!memory) return std::move(memory).error();
     render.set_new_slot(*memory != nullptr);
+    markSlot(worker::slotBytes(request.size, false));
     outbox_.push_back({.message = std::move(message), .descriptor = *std::move(memory)});
     owe(Owed::kFrame, limit);
     return {};
@@ -160,6 +174,12 @@ Result<void> WorkerProcess::pick(std::uint64_t number, const worker::PickJob& jo
     outbox_.push_back({.message = std::move(message), .descriptor = nullptr});
     owe(Owed::kPick, limit);
     return {};
+}
+
+void WorkerProcess::arm(const worker::FaultSpec& fault) {
+    Message message;
+    message.mutable_arm_fault()->set_fault(worker::toText(fault));
+    outbox_.push_back({.message = std::move(message), .descriptor = nullptr});
 }
 
 void WorkerProcess::stopMeasuring() {
@@ -213,14 +233,25 @@ Result<std::optional<WorkerProcess::Answer>> WorkerProcess::receive() {
     return std::optional{std::move(answer)};
 }
 
+Result<void> WorkerProcess::checkPicture(const internal::v1::Rendered& rendered,
+                                         const RenderRequest& request) const {
+    const bool asAsked = rendered.slot() == slot_ &&
+                         static_cast<int>(rendered.width()) == request.size.x &&
+                         static_cast<int>(rendered.height()) == request.size.y;
+    if (!asAsked) return fail(ErrorCode::kInvalidArgument, "drew a picture nobody asked for");
+    const Slot& slot = slots_[slot_];
+    const std::size_t colourBytes = worker::slotBytes(request.size, false);
+    if (colourBytes < 2 * slot.mark.size()) return {};
+    const std::span<const std::byte> colours = slot.mapping.bytes.first(colourBytes);
+    const bool written = !std::ranges::equal(slot.mark, colours.first(slot.mark.size())) &&
+                         !std::ranges::equal(slot.mark, colours.last(slot.mark.size()));
+    if (!written) return fail(ErrorCode::kInvalidArgument, "announced a picture and wrote none");
+    return {};
+}
+
 Result<std::shared_ptr<const Picture>> WorkerProcess::copyPicture(
     const internal::v1::Rendered& rendered, const RenderRequest& request) const {
     const std::size_t needed = worker::slotBytes(request.size, request.wantFloat);
-    const bool asAsked = rendered.slot() < worker::kSlots &&
-                         static_cast<int>(rendered.width()) == request.size.x &&
-                         static_cast<int>(rendered.height()) == request.size.y &&
-                         slots_[rendered.slot()].mapping.bytes.size() >= needed;
-    if (!asAsked) return fail(ErrorCode::kInvalidArgument, "drew a picture nobody asked for");
     const std::span<const std::byte> bytes = slots_[rendered.slot()].mapping.bytes;
     const std::size_t colourBytes = worker::slotBytes(request.size, false);
     try {

@@ -6,10 +6,12 @@
 #include <deque>
 #include <memory>
 #include <optional>
+#include <random>
 #include <string>
 
 #include "renderer/base/memfd.h"
 #include "renderer/worker/channel.h"
+#include "renderer/worker/fault_names.h"
 #include "renderer/worker/slot_layout.h"
 #include "server/workers/child_process.h"
 #include "server/workers/render_service.h"
@@ -48,6 +50,7 @@ public:
     Result<void> measure(std::uint64_t number, const accuracy::Job& job,
                          std::chrono::milliseconds limit);
     void stopMeasuring();
+    void arm(const worker::FaultSpec& fault);
     /// Errors: kLimitExceeded (the scene is too large for the channel).
     Result<void> pick(std::uint64_t number, const worker::PickJob& job,
                       std::chrono::milliseconds limit);
@@ -59,8 +62,11 @@ public:
     /// Errors: the channel is closed or broken, or the worker does not keep to the protocol.
     Result<std::optional<Answer>> receive();
 
-    /// Copies a picture out of the slot it came in. Errors: kInvalidArgument (it was not asked
-    /// for like this), kLimitExceeded (no memory).
+    /// Errors: kInvalidArgument (it was not asked for like this, or its slot was not written).
+    Result<void> checkPicture(const internal::v1::Rendered& rendered,
+                              const RenderRequest& request) const;
+    /// Copies a picture, which checkPicture() accepts, out of the slot it came in.
+    /// Errors: kLimitExceeded (no memory).
     Result<std::shared_ptr<const Picture>> copyPicture(const internal::v1::Rendered& rendered,
                                                        const RenderRequest& request) const;
 
@@ -94,8 +100,11 @@ private:
         Message message;
         SharedDescriptor descriptor;
     };
+    /// Stands in a slot before a picture is asked for: where it still does, there is no picture.
+    using Mark = std::array<std::byte, 16>;
     struct Slot {
-        base::Mapping mapping;  ///< Read-only.
+        base::Mapping mapping;
+        Mark mark{};
     };
 
     WorkerProcess(ChildProcess child, worker::Channel channel)
@@ -104,6 +113,8 @@ private:
     Result<void> settle(const Answer& answer);
     /// Memory for the next picture where the slot has none that fits; empty: it has.
     Result<SharedDescriptor> prepareSlot(std::size_t bytes);
+    /// Marks the first and the last pixels of a picture in the next slot.
+    void markSlot(std::size_t colourBytes);
 
     ChildProcess child_;
     worker::Channel channel_;
@@ -115,6 +126,7 @@ private:
     bool warm_ = false;
     std::array<Slot, worker::kSlots> slots_;
     std::uint32_t slot_ = 0;  ///< Of the last picture asked for.
+    std::mt19937_64 marks_{std::random_device{}()};
 };
 
 }  // namespace volcast::workers

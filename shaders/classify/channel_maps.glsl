@@ -2,7 +2,9 @@
 // says of one: the same pieces, grids and searches, but no map is a sum of slopes.
 // Constants: kChannelSearch: 2 bits a channel, from the lowest: how its values are found.
 // Layout of the buffer (texels of 4 floats), written by renderer/scene/channel_table.cpp:
-//   0  where each channel's part begins; then the parts, each laid out as that file describes
+//   0     where each channel's part begins
+//   1, 2  ends of the interval in which each channel's values count
+//   then the parts, each laid out as renderer/scene/map_texels.cpp has it
 #include "shared/bindings.glsl"
 
 layout(binding = kMapUnit) uniform samplerBuffer mapTexels;
@@ -53,4 +55,9 @@ vec4 matterOf(ChannelMap map, float value) {
     float from = texelFetch(mapTexels, texel + 2).x;
     vec4 matter = texelFetch(mapTexels, texel) + (value - from) * texelFetch(mapTexels, texel + 1);
     return vec4(matter.rgb, max(matter.a, 0.0));
+}
+
+// Whether no value from `low` to `high` has extinction.
+bool transparentBetween(ChannelMap map, float low, float high) {
+    return high < texelFetch(mapTexels, map.pieces + 3 * pieceOf(map, low) + 2).y;
 }

@@ -12,6 +12,7 @@ struct PausedRay {
     ivec4 vertices;  // a, b, c, apex
     ivec4 place;     // cell, last entry's face, one of the words above
     vec4 numbers;    // depth, value, last entry's depth, density
+    ivec2 before;    // the cell before, and its vertex that is not on the face
     Segment rest;    // of the piece in hand
     RayState state;
 };
@@ -48,9 +49,8 @@ bool resume(ivec2 pixel, Sight sight, inout RayState state, inout Walk walk, ino
     Corner b = cornerOf(ray.vertices.y, sight);
     Corner c = cornerOf(ray.vertices.z, sight);
     vec3 weights = max(vec3(areaOf(b, c), areaOf(c, a), areaOf(a, b)), 0.0);
-    // The cell before matters where a ray has ended; such rays are not resumed.
     walk = Walk(ray.place.x, ray.vertices.w, a, b, c, weights, ray.numbers.x, ray.numbers.y,
-                ray.numbers.w, -1, a);
+                ray.numbers.w, ray.before.x, cornerOf(ray.before.y, sight));
     queue.lastFace = ray.place.y;
     queue.lastDepth = ray.numbers.z;
     return true;
@@ -60,5 +60,6 @@ void pause(ivec2 pixel, bool ended, RayState state, Walk walk, Segment rest, Ent
     pausedRays[slotOf(pixel)] =
         PausedRay(ivec4(walk.a.id, walk.b.id, walk.c.id, walk.apex),
                   ivec4(walk.cell, queue.lastFace, ended ? kFinished : kPaused, 0),
-                  vec4(walk.depth, walk.value, queue.lastDepth, walk.density), rest, state);
+                  vec4(walk.depth, walk.value, queue.lastDepth, walk.density),
+                  ivec2(walk.left, walk.behind.id), rest, state);
 }

@@ -15,7 +15,7 @@
 // Constants: kValuesAt, kDensityAt; kListed: pixels have lists of entries (the mesh is not convex);
 // kContinuous: a piece's front values are the back values of the one before; those of
 // mesh/trim.glsl; kEarlyStop: the model may end a ray; kSplits: pieces are taken in parts;
-// kMaxRounds: a draw; kCellsARound, kPartsARound; kCounts: rays that need more are counted; kResumes: they go on from where the
+// kPartByPart: by a user's code, of kIterationsAPart rounds; kMaxRounds: a draw; kCellsARound, kPartsARound; kCounts: rays that need more are counted; kResumes: they go on from where the
 // last draw left them; kCountsSteps; kLit.
 // Source of the perturbation: H. Edelsbrunner, E. Muecke, Simulation of Simplicity, ACM TOG 9(1),
 // 1990.
@@ -158,10 +158,33 @@ bool crossInRounds(inout Walk walk, inout RayState state, inout Segment rest, in
     return ended;
 }
 
+// The walk behind the cell that a piece lies in, and the world units in a unit of depth on its line:
+// for models that ask for more than a piece says.
+Walk pieceWalk;
+float pieceScale;
+
+// One part a round, and before it a cell where nothing of the last one is left: a user's code costs
+// more than a cell, and is in the program once. Its own loops count as rounds.
+bool crossPartByPart(inout Walk walk, inout RayState state, inout Segment rest, inout int rounds,
+                     Line line) {
+    bool ended = false;
+    pieceScale = line.worldPerDepth;
+    while ((walk.cell >= 0 || rest.extent >= 0.0) && !ended && rounds > 0) {
+        rounds -= kIterationsAPart;
+        if (rest.extent < 0.0) {
+            rest = trimmed(crossCell(walk, line.sight, line.worldPerDepth), line.window);
+        }
+        pieceWalk = walk;
+        ended = gather(state, rest, walk, line);
+    }
+    return ended;
+}
+
 // Goes on until the mesh is left, the ray is at its end (true), or no rounds are left: cells, or
 // where pieces have parts some cells.
 bool crossCells(inout Walk walk, inout RayState state, inout Segment rest, inout int rounds,
                 Line line) {
+    if (kPartByPart) return crossPartByPart(walk, state, rest, rounds, line);
     if (kSplits) return crossInRounds(walk, state, rest, rounds, line);
     bool ended = false;
     while (walk.cell >= 0 && !ended && rounds > 0) {

@@ -15,7 +15,8 @@ void enterData(inout RayState state, Segment piece) {
 }
 
 bool stepRay(inout RayState state, inout Segment rest) {
-    Emission sampled = emissionAt(0.5 * (rest.front + rest.back));
+    float extent;
+    Emission sampled = takeSample(rest, extent);
     bool shows = !sampled.rated ||
                  (kLargestCounts ? sampled.intensity > 0.0 : sampled.intensity < 1.0);
     bool beats = kLargestCounts ? sampled.intensity > state.intensity
@@ -24,7 +25,6 @@ bool stepRay(inout RayState state, inout Segment rest) {
         state.colour = sampled.colour;
         state.intensity = sampled.intensity;
     }
-    rest.extent = -1.0;
     return false;
 }
 

@@ -1,5 +1,5 @@
-// One piece as a user's code shows it: constant, with the opacity that the code gives for the
-// reference distance, corrected for the piece's own length.
+// A piece as a user's code shows it at its samples: each stands for a part, of the opacity that the code
+// gives for the reference distance, corrected for the length of the part.
 // Uses: classify (user_code.glsl).
 #include "lib/opacity_correction.glsl"
 
@@ -17,8 +17,8 @@ void placeCursor(inout MapCursor cursor, Segment piece) {
 float referencesAWorldUnit = codeHeader.x;
 
 vec4 integrateSegment(inout MapCursor cursor, inout Segment rest) {
-    vec4 colour = emissionAt(0.5 * (rest.front + rest.back)).colour;
-    float opacity = correctedOpacity(colour.a, referencesAWorldUnit * rest.extent);
-    rest.extent = -1.0;
+    float extent;
+    vec4 colour = takeSample(rest, extent).colour;
+    float opacity = correctedOpacity(colour.a, referencesAWorldUnit * extent);
     return vec4(opacity * colour.rgb, opacity);
 }

@@ -18,7 +18,8 @@ struct LayerBlock {
     vec4 viewport;           // width, height, 1 / width, 1 / height; pixels
     mat4 clipFromData;       // for triangles: reversed depth, 1 at the near plane, 0 far away
     mat4 gridFromData;       // voxels: grid point (i, j, k) has grid coordinates (i, j, k)
-    vec4 grid;               // voxels: number of grid points along x, y, z; w: step, world units
+    vec4 grid;               // voxels: number of grid points along x, y, z; w: step, world units; of
+                             // a mesh: the longest part that a sample of a user's code stands for
     vec4 surfaceColour;      // surface: linear RGB
     vec4 edge;               // wireframe: linear RGB, width in pixels
     vec4 gather;             // x: extinction scale, y: 2^exposure; interval of f: z: lowest, w: highest

@@ -13,6 +13,9 @@ const int kCornerUnit = 12;    // a cell's vertices, positively oriented
 const int kOrderUnit = 13;     // cells by number, front to back
 const int kLevelUnit = 9;      // values of levels; instead of entries
 const int kLevelCellUnit = 13; // cells and the numbers of levels that they meet; instead of an order
+const int kOtherFieldUnit = 11;  // the first of those that only user code reads; instead of a second field,
+                                 // corners, orders, shares and the psi table
+const int kMostOtherFields = 5;
 
 // Storage blocks
 const int kVertexStorage = 0;

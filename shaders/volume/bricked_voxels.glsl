@@ -10,6 +10,7 @@
 #include "lib/layer.glsl"
 #include "lib/unit.glsl"
 #include "shared/brick_pool.glsl"
+#include "volume/missing.glsl"
 
 layout(binding = kVoxelUnit) uniform usampler3D brickVoxels;
 layout(binding = kBrickUnit) uniform isamplerBuffer brickTree;
@@ -141,17 +142,21 @@ float tricubic(ivec3 low, vec3 t) {
 
 // The value at grid coordinates `at` of the page's level, at most one grid interval outside of its
 // brick: a border of kBrickBorder points serves all that is read.
-float valueInPage(vec3 at) {
+float valueInPage(vec3 at, int sampling) {
     ivec3 last = ivec3(page.last);
-    if (kSampling == kNearest) {
+    if (sampling == kNearest) {
         return voxel(page.texels + clamp(ivec3(floor(at + 0.5)), ivec3(0), last));
     }
     // The same cell as if there was no page: on a face of a brick both give one value.
     ivec3 low = clamp(ivec3(floor(at)), ivec3(0), max(last - 1, ivec3(0)));
     low = clamp(low, page.first - 1, page.first + kPoolBrick);
     vec3 t = clamp(at - vec3(low), 0.0, 1.0);
-    return kSampling == kTricubic ? tricubic(page.texels + low, t)
+    return sampling == kTricubic ? tricubic(page.texels + low, t)
                                   : trilinear(page.texels + low, t);
+}
+
+float valueInPage(vec3 at) {
+    return valueInPage(at, kSampling);
 }
 
 // The value at grid coordinates `at`. Where a coarser brick stands in for one that was left out for
@@ -159,7 +164,29 @@ float valueInPage(vec3 at) {
 float valueAt(vec3 at) {
     at = clamp(at, vec3(0.0), vec3(gridLast));
     turnTo(at);
-    return clamp(valueInPage(levelFromGrid(at)), page.range.x, page.range.y);
+    if (kMissing && page.range.x > page.range.y) return noValue();
+    float value = valueInPage(levelFromGrid(at));
+    return lacksValue(value) ? value : clamp(value, page.range.x, page.range.y);
+}
+
+// The shortest side of a voxel of level 0, in the world: rows of the matrix are as long as 1 / a side.
+float voxelSide() {
+    mat3 world = transpose(mat3(layer.gridFromData));
+    return 1.0 / max(length(world[0]), max(length(world[1]), length(world[2])));
+}
+
+// How many of the layer's steps a sample stands for on level 0, at most 1: less where the step is
+// longer than half the shortest side of a voxel.
+float coarserSteps = min(0.5 * voxelSide() / layer.grid.w, 1.0);
+
+// Steps of a ray that a sample stands for, from `at` on: as many more as the brick's voxels are longer,
+// as long as all of them lie in the brick.
+int stepsASample(vec3 at, vec3 step) {
+    turnTo(clamp(at, vec3(0.0), vec3(gridLast)));
+    int count = max(int(coarserSteps * float(1 << page.level)), 1);
+    vec3 end = at + float(count) * step;
+    bool within = all(greaterThanEqual(end, page.low)) && all(lessThanEqual(end, page.high));
+    return within ? count : 1;
 }
 
 // The direction in which the field rises most, of length 1 in the world; 0 where it is flat. By
@@ -177,6 +204,11 @@ vec3 normalAt(vec3 at) {
     vec3 below = vec3(valueInPage(vec3(low.x, middle.yz)),
                       valueInPage(vec3(middle.x, low.y, middle.z)),
                       valueInPage(vec3(middle.xy, low.z)));
+    if (kMissing) {
+        float own = valueInPage(middle);
+        standIn(high, above, middle, own);
+        standIn(low, below, middle, own);
+    }
     vec3 extent = gridFromLevel(high) - gridFromLevel(low);
     // Quarters, because the difference of two large values may not be a number.
     vec3 slope = (0.25 * above - 0.25 * below) / max(extent, vec3(0.5));

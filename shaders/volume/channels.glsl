@@ -1,7 +1,8 @@
 // Up to four channels of a volume between their grid points, in grid coordinates: the components of
 // one texture, so that a fetch reads all of them.
-// Constants: kSampling, kFilterInHardware (trilinear by the texture unit).
+// Constants: kSampling, kFilterInHardware (trilinear by the texture unit), kMissing.
 #include "lib/layer.glsl"
+#include "lib/unit.glsl"
 
 layout(binding = kVoxelUnit) uniform sampler3D channelVoxels;
 
@@ -65,4 +66,33 @@ vec4 channelsAt(vec3 at) {
     if (kSampling == kTricubic) return tricubicChannels(at);
     return kFilterInHardware ? textureLod(channelVoxels, (at + 0.5) / layer.grid.xyz, 0.0)
                              : trilinearChannels(at);
+}
+
+// How fast each channel rises along `axis`, by central differences over a grid interval to each side;
+// at a face of the box, and beside voxels without a value, one side is shorter.
+vec4 channelSlopes(int axis, vec3 at) {
+    vec3 low = at, high = at;
+    low[axis] = max(at[axis] - 1.0, 0.0);
+    high[axis] = min(at[axis] + 1.0, layer.grid[axis] - 1.0);
+    vec4 below = channelsAt(low), above = channelsAt(high);
+    vec4 from = vec4(low[axis]), to = vec4(high[axis]);
+    if (kMissing) {
+        vec4 own = channelsAt(at);
+        from = mix(from, vec4(at[axis]), isnan(below));
+        to = mix(to, vec4(at[axis]), isnan(above));
+        below = mix(below, own, isnan(below));
+        above = mix(above, own, isnan(above));
+    }
+    // Quarters, because the difference of two large values may not be a number.
+    return (0.25 * above - 0.25 * below) / max(to - from, vec4(0.5));
+}
+
+// The direction in which each channel rises most, of length 1 in the world; 0 where it is flat.
+mat4x3 channelNormals(vec3 at) {
+    vec4 x = channelSlopes(0, at), y = channelSlopes(1, at), z = channelSlopes(2, at);
+    mat3 worldFromSlope = transpose(mat3(layer.gridFromData));
+    return mat4x3(unit(worldFromSlope * unit(vec3(x.x, y.x, z.x))),
+                  unit(worldFromSlope * unit(vec3(x.y, y.y, z.y))),
+                  unit(worldFromSlope * unit(vec3(x.z, y.z, z.z))),
+                  unit(worldFromSlope * unit(vec3(x.w, y.w, z.w))));
 }

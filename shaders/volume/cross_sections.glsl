@@ -19,8 +19,8 @@ bool meets(int axis, Ray ray, Window window, out float distance, out float value
     at[axis] = layer.sections[axis];
     if (any(lessThan(at, vec3(0.0))) || any(greaterThan(at, layer.grid.xyz - 1.0))) return false;
     value = valueAt(at);
-    bool counts = kInterval ? value >= layer.gather.z && value <= layer.gather.w : value == value;
-    return counts;
+    if (lacksValue(value)) return false;
+    return !kInterval || (value >= layer.gather.z && value <= layer.gather.w);
 }
 
 void main() {

@@ -22,7 +22,8 @@ Sampled sampledAt(Ray ray, March march, float at) {
     float value = litValueAt(ray, march, at, light);
     bool counts = !kInterval || (value >= layer.gather.z && value <= layer.gather.w);
     vec4 matter = matterAt(value, value);
-    if (kInterval && !counts) matter = vec4(0.0);
+    if (lacksValue(value)) counts = false;
+    if (!counts) matter = vec4(0.0);
     return Sampled(value, matter, light);
 }
 
@@ -36,6 +37,7 @@ float changeOf(vec4 found, vec4 expected, float extent) {
 }
 
 bool takeSample(inout RayState state, Sampled s, float extent, float at) {
+    if (lacksValue(s.value)) return false;
     if (kInterval && (s.value < layer.gather.z || s.value > layer.gather.w)) return false;
     if (kShaded) pieceLight = s.light;
     Segment piece = sampledPiece(s.value, s.value, extent, at);

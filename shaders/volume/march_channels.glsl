@@ -1,23 +1,30 @@
 // Rays that march through several channels of a volume, each in the colours of its own map, blended
 // over what is there. Equal steps over the exact length of the ray in the box; a step's matter is
-// that in its middle.
+// that of one sample in it, by default in its middle. Steps that cannot add to the ray, because no
+// channel can, are passed over as in volume/march_ray.glsl.
 //
 // Where matter of several channels is in one place, extinctions add up, and each emits its colour
-// times its extinction: that is what many small grains of each would do. Of maxima and minima each
-// channel has its own, and their colours add up.
-// Constants: kChannels, 1 to 4; kGathers: what of the model; kEarlyStop; kMaxRaySamples; those of
-// lib/window.glsl, volume/channels.glsl and classify/channel_maps.glsl.
+// times its extinction: that is what many small grains of each would do. A light falls on each by the
+// slope of its own field, before they are added. Of maxima and minima each channel has its own, and
+// their colours add up.
+// Constants: kChannels, 1 to 4; kGathers: what of the model; kEarlyStop; kSkipBricks; kShaded; kJitters;
+// kInterval: channels have intervals; kMissing: voxels may have no value; kMaxRaySamples; those of
+// lib/window.glsl, volume/channel_ranges.glsl and classify/channel_maps.glsl.
 #include "contract/segment.glsl"
 #include "lib/box.glsl"
 #include "lib/finished.glsl"
+#include "lib/jitter.glsl"
+#include "lib/light.glsl"
 #include "lib/window.glsl"
 #include "classify/channel_maps.glsl"
-#include "volume/channels.glsl"
+#include "volume/channel_ranges.glsl"
 
 const int kVolume = 0;
 const int kMip = 1;
 const int kMinip = 2;
 const int kXray = 3;
+const bool kExtremes = kGathers == kMip || kGathers == kMinip;
+const float kNothing = 3.4e38;
 
 layout(location = 0) out vec4 colour;
 
@@ -25,32 +32,107 @@ ChannelMap map0 = channelMap(0);
 ChannelMap map1 = channelMap(min(1, kChannels - 1));
 ChannelMap map2 = channelMap(min(2, kChannels - 1));
 ChannelMap map3 = channelMap(min(3, kChannels - 1));
+vec4 lowest = texelFetch(mapTexels, 1), highest = texelFetch(mapTexels, 2);
+uint jitterSeed = uint(layer.jitter.x) | uint(layer.jitter.y) << 16u;
+float share = kJitters ? shareOf(uvec2(gl_FragCoord.xy), jitterSeed) : 0.5;
+
+// What a ray has gathered.
+struct Gathered {
+    vec3 light;
+    float opacity, depth;
+    vec4 extremes;  // largest or smallest values, +-kNothing where there was none
+};
+
+// Which of the channels have a value that counts.
+bvec4 counted(vec4 values) {
+    bvec4 counts = bvec4(true);
+    if (kInterval) {
+        bvec4 above = greaterThanEqual(values, lowest), below = lessThanEqual(values, highest);
+        counts = bvec4(above.x && below.x, above.y && below.y, above.z && below.z, above.w && below.w);
+    }
+    if (kMissing) counts = mix(counts, bvec4(false), isnan(values));
+    return counts;
+}
+
+vec4 matterIn(ChannelMap map, float value, bool counts) {
+    return counts ? matterOf(map, value) : vec4(0.0);
+}
 
 // Emission (colour times extinction) and extinction.
-vec4 emissionOf(vec4 matter) {
-    return vec4(matter.rgb * matter.a, matter.a);
+vec4 emissionOf(vec4 matter, vec3 normal, vec3 position, vec3 towardsEye) {
+    if (!kShaded) return vec4(matter.rgb * matter.a, matter.a);
+    vec2 light = lightOn(normal, position, towardsEye);
+    return vec4((matter.rgb * light.x + light.y) * matter.a, matter.a);
 }
 
 // Written out: loops would soon meet the limit of llvmpipe.
-vec4 emissionAt(vec4 values) {
-    vec4 sum = emissionOf(matterOf(map0, values.x));
-    if (kChannels > 1) sum += emissionOf(matterOf(map1, values.y));
-    if (kChannels > 2) sum += emissionOf(matterOf(map2, values.z));
-    if (kChannels > 3) sum += emissionOf(matterOf(map3, values.w));
+vec4 emissionAt(vec4 values, vec3 at, vec3 position, vec3 towardsEye) {
+    bvec4 counts = counted(values);
+    vec4 matter0 = matterIn(map0, values.x, counts.x), matter1 = vec4(0.0), matter2 = vec4(0.0);
+    vec4 matter3 = vec4(0.0);
+    if (kChannels > 1) matter1 = matterIn(map1, values.y, counts.y);
+    if (kChannels > 2) matter2 = matterIn(map2, values.z, counts.z);
+    if (kChannels > 3) matter3 = matterIn(map3, values.w, counts.w);
+    mat4x3 normals = mat4x3(0.0);
+    bool some = matter0.a + matter1.a + matter2.a + matter3.a > 0.0;
+    if (kShaded && some) normals = channelNormals(at);
+    vec4 sum = emissionOf(matter0, normals[0], position, towardsEye);
+    if (kChannels > 1) sum += emissionOf(matter1, normals[1], position, towardsEye);
+    if (kChannels > 2) sum += emissionOf(matter2, normals[2], position, towardsEye);
+    if (kChannels > 3) sum += emissionOf(matter3, normals[3], position, towardsEye);
     return sum;
 }
 
-vec3 coloursOf(vec4 values) {
-    vec3 sum = matterOf(map0, values.x).rgb;
-    if (kChannels > 1) sum += matterOf(map1, values.y).rgb;
-    if (kChannels > 2) sum += matterOf(map2, values.z).rgb;
-    if (kChannels > 3) sum += matterOf(map3, values.w).rgb;
-    return sum;
+// The colours of extremes, added up, of channels that have any.
+vec4 coloursOf(vec4 values) {
+    bvec4 met = lessThan(abs(values), vec4(kNothing));
+    vec3 sum = matterIn(map0, values.x, met.x).rgb;
+    if (kChannels > 1) sum += matterIn(map1, values.y, met.y).rgb;
+    if (kChannels > 2) sum += matterIn(map2, values.z, met.z).rgb;
+    if (kChannels > 3) sum += matterIn(map3, values.w, met.w).rgb;
+    bool any = met.x || kChannels > 1 && met.y || kChannels > 2 && met.z || kChannels > 3 && met.w;
+    return any ? vec4(sum, 1.0) : vec4(0.0);
 }
 
 // The share that depth takes away: 1 - exp(-depth), to the last digits of thin matter too.
 float opacityOf(float depth) {
     return depth < 1.0e-3 ? depth * (1.0 - depth * (0.5 - depth / 6.0)) : 1.0 - exp(-depth);
+}
+
+// Takes a sample for a step. True: nothing behind can show.
+bool takeSample(inout Gathered gathered, vec3 at, vec3 position, vec3 towardsEye, float dt) {
+    vec4 values = channelsAt(at);
+    if (kExtremes) {
+        vec4 none = vec4(kGathers == kMip ? -kNothing : kNothing);
+        if (kInterval || kMissing) values = mix(none, values, counted(values));
+        gathered.extremes = kGathers == kMip ? max(gathered.extremes, values) : min(gathered.extremes, values);
+        return false;
+    }
+    vec4 emission = emissionAt(values, at, position, towardsEye);
+    gathered.depth += emission.a * dt;
+    if (kGathers == kXray || !(emission.a > 0.0)) return false;
+    float taken = (1.0 - gathered.opacity) * opacityOf(emission.a * dt);
+    gathered.light += taken / emission.a * emission.rgb;
+    gathered.opacity += taken;
+    return kEarlyStop && gathered.opacity > kFinishedOpacity;
+}
+
+// Whether a channel adds nothing by values from `low` to `high`.
+bool addsNothing(ChannelMap map, float low, float high, float extreme) {
+    if (low > high) return true;
+    if (kGathers == kMip) return high <= extreme;
+    if (kGathers == kMinip) return low >= extreme;
+    return transparentBetween(map, low, high);
+}
+
+bool allAddNothing(Gathered gathered, ChannelRanges ranges) {
+    if (kInterval) ranges.low = max(ranges.low, lowest);
+    if (kInterval) ranges.high = min(ranges.high, highest);
+    bool nothing = addsNothing(map0, ranges.low.x, ranges.high.x, gathered.extremes.x);
+    if (kChannels > 1) nothing = nothing && addsNothing(map1, ranges.low.y, ranges.high.y, gathered.extremes.y);
+    if (kChannels > 2) nothing = nothing && addsNothing(map2, ranges.low.z, ranges.high.z, gathered.extremes.z);
+    if (kChannels > 3) nothing = nothing && addsNothing(map3, ranges.low.w, ranges.high.w, gathered.extremes.w);
+    return nothing;
 }
 
 void main() {
@@ -62,26 +144,28 @@ void main() {
     vec2 span = boxSpan(origin, direction, vec3(0.0), layer.grid.xyz - 1.0);
     float begin = max(span.x, window.begin), end = min(span.y, window.end);
     bool met = begin <= end;
-    float steps = met ? clamp(ceil((end - begin) / layer.grid.w), 1.0, float(kMaxRaySamples)) : 0.0;
-    float dt = met ? (end - begin) / steps : 0.0;
-    vec4 largest = vec4(-3.4e38), smallest = vec4(3.4e38);
-    vec3 light = vec3(0.0);
-    float opacity = 0.0, depth = 0.0;
-    for (float i = 0.0; i < steps; i += 1.0) {
-        vec4 values = channelsAt(origin + (begin + (i + 0.5) * dt) * direction);
-        if (kGathers == kMip) largest = max(largest, values);
-        if (kGathers == kMinip) smallest = min(smallest, values);
-        if (kGathers == kMip || kGathers == kMinip) continue;
-        vec4 emission = emissionAt(values);
-        if (kGathers == kXray) depth += emission.a * dt;
-        if (kGathers == kXray || !(emission.a > 0.0)) continue;
-        float share = (1.0 - opacity) * opacityOf(emission.a * dt);
-        light += share / emission.a * emission.rgb;
-        opacity += share;
-        if (kEarlyStop && opacity > kFinishedOpacity) break;
+    float count = met ? clamp(ceil((end - begin) / layer.grid.w), 1.0, float(kMaxRaySamples)) : 0.0;
+    float dt = met ? (end - begin) / count : 0.0;
+    int steps = int(count);
+    // As many steps are looked at together as ranges reach over; see volume/march_ray.glsl.
+    vec3 step = abs(direction) * dt;
+    float across = 2.0 * float(kRangeReach) / max(max(step.x, max(step.y, step.z)), 1.0e-30);
+    int together = int(clamp(across, 1.0, 4096.0));
+    bool skips = kSkipBricks && across >= 1.0;
+    Gathered gathered = Gathered(vec3(0.0), 0.0, 0.0, vec4(kGathers == kMip ? -kNothing : kNothing));
+    bool finished = false;
+    int i = 0;
+    while (i < steps && !finished) {
+        int beyond = skips ? min(i + together, steps) : steps;
+        float middle = begin + (float(i) + 0.5 * float(together)) * dt;
+        if (skips && allAddNothing(gathered, rangesAround(origin + middle * direction))) i = beyond;
+        for (; i < beyond && !finished; ++i) {
+            float distance = begin + (float(i) + share) * dt;
+            finished = takeSample(gathered, origin + distance * direction,
+                                  ray.origin + distance * ray.direction, -ray.direction, dt);
+        }
     }
-    colour = vec4(light, opacity);
-    if (kGathers == kXray) colour = vec4(vec3(exp(-layer.gather.x * depth)), 1.0);
-    if (kGathers == kMip) colour = met ? vec4(coloursOf(largest), 1.0) : vec4(0.0);
-    if (kGathers == kMinip) colour = met ? vec4(coloursOf(smallest), 1.0) : vec4(0.0);
+    colour = vec4(gathered.light, gathered.opacity);
+    if (kGathers == kXray) colour = vec4(vec3(exp(-layer.gather.x * gathered.depth)), 1.0);
+    if (kExtremes) colour = coloursOf(gathered.extremes);
 }

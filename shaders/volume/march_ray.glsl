@@ -8,7 +8,8 @@
 // field has the level's value: it is on different sides at both ends of what is left. A line through
 // these ends gives the hit. A field that crosses a level and comes back within one step is not seen to
 // do so. Where kAdaptive steps are no longer equal, where kByVoxels pieces are those of voxels.
-// Constants: kPieces, kNarrows, kAdaptive, kByVoxels; kJitters: samples are not in the middle;
+// kCoarseSteps: coarser voxels have longer steps.
+// Constants: kPieces, kNarrows, kAdaptive, kByVoxels, kCoarseSteps; kJitters: samples are not in the middle;
 // kForesees: the model sees some samples first; kByDistance: passes over what empty_space.glsl knows; kSkipBricks, kEarlyStop, kMaxRaySamples;
 // kInterval: only values in an interval count; kLit: levels are lit from the eye; kShaded: samples are by layer.light;
 // those of lib/window.glsl and volume/voxels.glsl.
@@ -60,6 +61,13 @@ float placeOf(int i) {
     return kPieces ? float(i) : float(i) + share;
 }
 
+// Steps from `i` on that are taken as one; coarse voxels need fewer samples.
+int stepsAsOne(March march, int i, int beyond) {
+    if (!kCoarseSteps) return 1;
+    vec3 at = positionAt(march, distanceOf(march, float(i)));
+    return min(stepsASample(at, march.dt * march.direction), beyond - i);
+}
+
 #include "volume/ranges.glsl"
 #include "volume/empty_space.glsl"
 
@@ -80,17 +88,23 @@ float litValueAt(Ray ray, March march, float at, out vec2 light) {
 
 #include "volume/pieces.glsl"
 
-// Takes step `i`; `value` is that of the step before, then that of this one. True: nothing behind
-// can show.
-bool takeStep(inout RayState state, inout float value, Ray ray, March march, int i) {
+// Takes `count` steps from `i` on as one; `value` is that of the step before, then that of this one.
+// True: nothing behind can show.
+bool takeStep(inout RayState state, inout float value, Ray ray, March march, int i, int count) {
     float front = value;
-    float at = distanceOf(march, kPieces ? float(i + 1) : placeOf(i));
+    float extent = float(count) * march.dt;
+    float at = distanceOf(march, float(i) + float(count) * (kPieces ? 1.0 : share));
     value = litValueAt(ray, march, at, pieceLight);
     if (kPieces && !kNarrows) {
-        return takePiece(state, sampledPiece(front, value, march.dt, distanceOf(march, float(i))));
+        return takePiece(state, sampledPiece(front, value, extent, distanceOf(march, float(i))));
     }
     if (kInterval && (value < layer.gather.z || value > layer.gather.w)) return false;
-    Segment piece = sampledPiece(kPieces ? front : value, value, march.dt, distanceOf(march, float(i)));
+    if (lacksValue(value)) return false;
+    if (kPieces && lacksValue(front)) {
+        enterData(state, sampledPiece(value, value, 0.0, at));
+        return false;
+    }
+    Segment piece = sampledPiece(kPieces ? front : value, value, extent, distanceOf(march, float(i)));
     return stepRay(state, piece) && kEarlyStop;
 }
 
@@ -100,8 +114,9 @@ void narrow(inout RayState state, March march, int i, float back) {
     float front = valueAfter(march, float(i));
     float extent = march.dt;
     for (int halving = 0; halving < kHalvings; ++halving) {
+        float middle = valueAt(positionAt(march, distance + 0.5 * extent));
+        if (lacksValue(middle)) break;
         extent *= 0.5;
-        float middle = valueAt(positionAt(march, distance + extent));
         Segment nearer = sampledPiece(front, middle, extent, distance);
         enterData(state, nearer);
         bool met = stepRay(state, nearer);
@@ -119,7 +134,7 @@ bool takeSteps(inout RayState state, inout float value, Ray ray, March march, in
     bool finished = false;
     // Several a round where that is right: it saves most of what a round costs, and while one waits for
     // memory others are looked up.
-    const int kAtOnce = kPieces || kShaded || kInterval || kSampling == kTricubic ? 1 : 4;
+    const int kAtOnce = kPieces || kShaded || kInterval || kMissing || kCoarseSteps || kSampling == kTricubic ? 1 : 4;
     if (kAtOnce > 1) {
         int last = march.steps - 1;
         do {
@@ -135,8 +150,9 @@ bool takeSteps(inout RayState state, inout float value, Ray ray, March march, in
         } while (i < beyond && !finished);
     } else {
         do {
-            finished = takeStep(state, value, ray, march, i);
-            ++i;
+            int count = stepsAsOne(march, i, beyond);
+            finished = takeStep(state, value, ray, march, i, count);
+            i += count;
         } while (i < beyond && !finished);
     }
     return finished;
@@ -186,10 +202,10 @@ int beyondAlike(RayState state, March march, int i, int together, bool skips, ou
 
 // The loops test at their ends: llvmpipe runs what lies behind a test once more for no lane at all.
 RayState marched(Ray ray, March march) {
-    if (kAdaptive) return marchedAdaptively(ray, march);
-    if (kByVoxels) return marchedByVoxels(ray, march);
     RayState state = beginRay(ray);
     if (march.first >= march.steps) return state;
+    if (kAdaptive) return marchedAdaptively(ray, march);
+    if (kByVoxels) return marchedByVoxels(ray, march);
     float value = 0.0;
     bool finished = false;
     int together = stepsTogether(march);
@@ -215,7 +231,9 @@ RayState marched(Ray ray, March march) {
         if (kPieces && jumped) {
             value = valueAfter(march, float(i));
             Segment here = sampledPiece(value, value, 0.0, distanceOf(march, float(i)));
-            if (!kNarrows || !entered) enterData(state, here);
+            // But behind a gap the field may be anywhere.
+            bool enters = !kNarrows || kMissing || !entered;
+            if (enters && !lacksValue(value)) enterData(state, here);
             entered = true;
             jumped = false;
         }

@@ -1,12 +1,13 @@
 // Marches through a voxel volume and asks a user's code in the middle of each step. Equal steps over
 // the exact length of the ray in the box; nothing is skipped, because nobody knows what the code
-// shows of a value.
+// shows of a value; where the layer's own channel has no value it is not asked.
 // Constants: kEarlyStop, kMaxRaySamples; kInterval: only values in an interval count; those of
-// lib/window.glsl and volume/user_channels.glsl.
+// lib/window.glsl and volume/user_voxels.glsl.
 // Uses: model.
 #include "lib/box.glsl"
 #include "lib/window.glsl"
-#include "volume/user_channels.glsl"
+#include "volume/missing.glsl"
+#include "volume/user_voxels.glsl"
 
 layout(location = 0) out vec4 colour;
 
@@ -25,6 +26,7 @@ void main() {
     for (int i = 0; i < int(steps); ++i) {
         sampleAt = origin + (begin + (float(i) + 0.5) * dt) * direction;
         float value = sampledValue(kOwnChannel);
+        if (lacksValue(value)) continue;
         float inInterval = value - codeHeader.y;  // as the layer's block has it
         if (kInterval && (inInterval < layer.gather.z || inInterval > layer.gather.w)) continue;
         Segment piece = Segment(value, value, value, value, dt, begin + float(i) * dt);

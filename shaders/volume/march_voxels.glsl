@@ -15,6 +15,7 @@ RayState marchedByVoxels(Ray ray, March march) {
         float leave = min(way.x, min(way.y, way.z));
         float value = valueAt(vec3(point));
         bool counts = !kInterval || (value >= layer.gather.z && value <= layer.gather.w);
+        if (lacksValue(value)) counts = false;
         float back = clamp(leave, at, end);
         Segment piece = sampledPiece(value, value, back - at, at);
         if (kShaded) litValueAt(ray, march, 0.5 * (at + back), pieceLight);

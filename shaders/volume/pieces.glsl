@@ -11,9 +11,10 @@ int partsLeft = kMaxRayParts;
 
 // True: nothing behind can show.
 bool takePiece(inout RayState state, Segment piece) {
+    if (lacksValue(piece.front) || lacksValue(piece.back)) return false;
     Segment rest = inInterval(piece);
     if (kInterval && rest.extent < 0.0) return false;
-    if (kInterval || (kSplits && partsLeft < 0)) enterData(state, rest);
+    if (kInterval || kMissing || (kSplits && partsLeft < 0)) enterData(state, rest);
     wholePieces = kSplits;
     bool ended = stepRay(state, rest) && kEarlyStop;
     wholePieces = false;

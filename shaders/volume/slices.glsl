@@ -22,7 +22,7 @@ void main() {
     float value = valueAt(clamp(position, vec3(0.0), layer.grid.xyz - 1.0));
     bool counts = at >= window.begin && at <= window.end;
     if (kInterval) counts = counts && value >= layer.gather.z && value <= layer.gather.w;
-    if (!counts) discard;
+    if (!counts || lacksValue(value)) discard;
     float extent = slices.planes.y / rise;
     if (kShaded && matterAt(value, value).a > 0.0) {
         pieceLight = lightOn(normalAt(position), ray.origin + at * ray.direction, -ray.direction);

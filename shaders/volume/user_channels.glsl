@@ -1,19 +1,12 @@
-// What a user's code reads of a volume: its layer's channel and others, around one place.
+// A volume's channels as a user's code reads them at `sampleAt`: its layer's own and others.
 // Constants: kOtherChannels, how many others there are, at most 7; those of volume/raw_field.glsl.
 // slotOf() is generated: 0 for the layer's channel, 1 for the first of the others, and so on.
-#include "contract/user_code.glsl"
 #include "volume/raw_field.glsl"
 
 const int kMaxOtherChannels = 7;
 
 layout(binding = kVoxelUnit) uniform sampler3D ownChannel;
 layout(binding = kOtherChannelUnit) uniform sampler3D otherChannels[kMaxOtherChannels];
-
-const int kAsNearest = 0;
-const int kAsLinear = 1;
-const int kAsLayer = 2;
-
-vec3 sampleAt;  // grid coordinates
 
 float read(sampler3D field, int how) {
     if (how == kAsNearest) return nearest(field, sampleAt);
@@ -30,16 +23,4 @@ float readChannel(int channel, int how) {
     if (kOtherChannels > 5 && slot == 6) return read(otherChannels[5], how);
     if (kOtherChannels > 6 && slot == 7) return read(otherChannels[6], how);
     return read(ownChannel, how);
-}
-
-float nearestValue(int channel) {
-    return readChannel(channel, kAsNearest);
-}
-
-float interpolatedValue(int channel) {
-    return readChannel(channel, kAsLinear);
-}
-
-float sampledValue(int channel) {
-    return readChannel(channel, kAsLayer);
 }

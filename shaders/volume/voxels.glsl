@@ -6,6 +6,7 @@
 // integers as its 4 bytes have room for, and texels lie in blocks of 4^3 grid points.
 #include "lib/layer.glsl"
 #include "lib/unit.glsl"
+#include "volume/missing.glsl"
 
 // One of these is read; both are at one texture unit.
 layout(binding = kVoxelUnit) uniform sampler3D voxelTexture;
@@ -135,17 +136,21 @@ float valueAt(vec3 at) {
     return trilinear(at);
 }
 
-// The direction in the world in which a field rises most that has these values a grid interval above
-// and below `at` along each axis; at a face of the box one side is shorter.
-vec3 normalOf(vec3 at, vec3 above, vec3 below) {
-    vec3 extent = min(at + 1.0, layer.grid.xyz - 1.0) - max(at - 1.0, vec3(0.0));
+// Steps of a ray that a sample stands for, from `at` on: all voxels are equally fine.
+int stepsASample(vec3 at, vec3 step) {
+    return 1;
+}
+
+// The direction in the world in which a field rises most that has these values above and below along
+// each axis, so many grid intervals apart.
+vec3 normalOf(vec3 extent, vec3 above, vec3 below) {
     // Quarters, because the difference of two large values may not be a number.
     vec3 slope = (0.25 * above - 0.25 * below) / max(extent, vec3(0.5));
     return unit(transpose(mat3(layer.gridFromData)) * unit(slope));
 }
 
 // The direction in which the field rises most, of length 1 in the world; 0 where it is flat. By
-// central differences.
+// central differences over a grid interval to each side; at a face of the box one side is shorter.
 vec3 normalAt(vec3 at) {
     vec3 low = max(at - 1.0, vec3(0.0));
     vec3 high = min(at + 1.0, layer.grid.xyz - 1.0);
@@ -153,7 +158,12 @@ vec3 normalAt(vec3 at) {
                       valueAt(vec3(at.xy, high.z)));
     vec3 below = vec3(valueAt(vec3(low.x, at.yz)), valueAt(vec3(at.x, low.y, at.z)),
                       valueAt(vec3(at.xy, low.z)));
-    return normalOf(at, above, below);
+    if (kMissing) {
+        float own = valueAt(at);
+        standIn(high, above, at, own);
+        standIn(low, below, at, own);
+    }
+    return normalOf(high - low, above, below);
 }
 
 float bilinear(vec4 plane, vec2 t) {
@@ -164,7 +174,7 @@ float bilinear(vec4 plane, vec2 t) {
 // Both at once. An interval to the side all weights are the same, so that what seven trilinear values
 // read is read and weighted together: three lines of four values through the cell.
 float valueAndNormal(vec3 at, out vec3 normal) {
-    if (kSampling != kTrilinear || kTexels == kTexture) {
+    if (kMissing || kSampling != kTrilinear || kTexels == kTexture) {
         normal = normalAt(at);
         return valueAt(at);
     }
@@ -182,6 +192,7 @@ float valueAndNormal(vec3 at, out vec3 normal) {
                        bilinear(face(ivec3(low.xy, z.w)), t.xy));
     vec3 above = mix(vec3(alongX.z, alongY.z, alongZ.z), vec3(alongX.w, alongY.w, alongZ.w), t);
     vec3 below = mix(vec3(alongX.x, alongY.x, alongZ.x), vec3(alongX.y, alongY.y, alongZ.y), t);
-    normal = normalOf(at, above, below);
+    vec3 extent = min(at + 1.0, layer.grid.xyz - 1.0) - max(at - 1.0, vec3(0.0));
+    normal = normalOf(extent, above, below);
     return mix(alongX.y, alongX.z, t.x);
 }

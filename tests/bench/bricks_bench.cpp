@@ -122,27 +122,54 @@ struct Options {
     std::string pictures;
 };
 
+/// What a view took until it was final.
+struct Row {
+    std::string name;
+    double firstSeconds = 0.0, finalSeconds = 0.0;
+    int pictures = 0;
+    std::size_t read = 0;  // Bytes of bricks, from where the volume is held.
+    int finest = 0, coarsest = 0;
+};
+
+void printTable(const std::vector<Row>& rows, const Options& options) {
+    std::printf("\n%d^3 in %zu MiB, %d x %d pixels\n", options.side, options.budgetMib,
+                options.pixels, options.pixels);
+    std::printf("%-14s %9s %22s %10s %9s %s\n", "view", "first, s", "while refining", "read, MiB",
+                "final, s", "levels");
+    for (const Row& row : rows) {
+        std::printf("%-14s %9.2f %5d pictures, %4.1f/s %10.1f %9.2f %d to %d\n", row.name.c_str(),
+                    row.firstSeconds, row.pictures, row.pictures / row.finalSeconds,
+                    static_cast<double>(row.read) / (1 << 20), row.finalSeconds, row.finest,
+                    row.coarsest);
+    }
+}
+
 /// Draws until it is ready, as a server does for a view that is left alone.
-void drawUntilReady(scene::Renderer& renderer, const std::string& name, const scene::Scene& scene,
-                    const Options& options) {
+Row drawUntilReady(scene::Renderer& renderer, const std::string& name, const scene::Scene& scene,
+                   const Options& options) {
+    Row row{.name = name};
     const glm::ivec2 size{options.pixels};
     std::vector<float> linear(std::size_t{4} * size.x * size.y);
     std::vector<std::byte> bytes(linear.size());
     std::printf("%s\n", name.c_str());
     const auto start = Clock::now();
-    std::size_t loaded = 0;
     for (int picture = 1;; ++picture) {
         const auto info = renderer.render(1, scene, size, {.rgba8 = bytes, .rgba32f = linear});
         if (!info) {
             std::printf("  %s\n", info.error().message.c_str());
-            return;
+            return row;
         }
+        row.pictures = picture;
+        row.finalSeconds = secondsSince(start);
+        if (picture == 1) row.firstSeconds = row.finalSeconds;
         if (info->bricks.empty()) {
             std::printf("  fits in the budget: draw %.0f ms\n", info->drawMs);
             break;
         }
         const volume::BrickReport& report = info->bricks[0].report;
-        loaded += report.loadedBytes;
+        row.read += report.loadedBytes;
+        row.finest = report.finest;
+        row.coarsest = report.coarsest;
         std::printf(
             "  picture %d: %zu of %zu bricks, %.1f MiB loaded, upload %.0f ms, draw %.0f ms\n",
             picture, report.resident, report.needed,
@@ -155,11 +182,12 @@ void drawUntilReady(scene::Renderer& renderer, const std::string& name, const sc
         for (const plan::Effect& effect : info->plan.layers[0].effects) {
             if (effect.name == plan::kBricks) std::printf("  %s\n", effect.reason.c_str());
         }
-        std::printf("  ready after %.2f s, %.1f MiB read\n", secondsSince(start),
-                    static_cast<double>(loaded) / (1 << 20));
+        std::printf("  ready after %.2f s, %.1f MiB read\n", row.finalSeconds,
+                    static_cast<double>(row.read) / (1 << 20));
         break;
     }
     compare(scene, size, linear, 0.25 / options.side);
+    return row;
 }
 
 int run(const Options& options) {
@@ -195,18 +223,20 @@ int run(const Options& options) {
         return data::ControlPoint{
             .value = value, .colour = glm::vec3(value / 255.0F), .extinction = extinction};
     };
+    std::vector<Row> rows;
     const auto draw = [&](const std::string& name, scene::RayModel model, glm::dvec3 eye,
                           glm::dvec3 center, double fovy, float deepest) {
         layer.model = model;
         layer.map.points = {grey(0.0F, 0.0F), grey(255.0F, deepest)};
         scene.camera = {.eye = eye, .center = center, .fovyDegrees = fovy};
-        drawUntilReady(**renderer, name, scene, options);
+        rows.push_back(drawUntilReady(**renderer, name, scene, options));
     };
     const glm::dvec3 far{2.1, 1.6, 2.4}, middle{0.5};
     draw("whole_mip", scene::RayModel::kMip, far, middle, 30.0, 10.0F);
     draw("whole_volume", scene::RayModel::kVolume, far, middle, 30.0, 10.0F);
     // From within, at the shell: level 0 near the eye.
     draw("near_volume", scene::RayModel::kVolume, {0.5, 0.5, 0.62}, {0.5, 0.52, 0.87}, 25.0, 40.0F);
+    printTable(rows, options);
     return 0;
 }
 

@@ -54,9 +54,11 @@ describe("the shader editor", () => {
           .selectOption({ label: "half" });
       },
       async () => {
-        await client.page.getByLabel("range, 1 at").fill("0.5");
-        await client.page.getByLabel("range, 1 at").press("Enter");
+        const end = client.page.getByRole("textbox", { name: "range, 1 at, as a number" });
+        await end.fill("0.5");
+        await end.press("Enter");
       },
+      () => client.page.getByRole("slider", { name: "range, 0 at" }).fill("0.2"),
     ];
     for (const step of steps) {
       await client.after(step);
@@ -105,5 +107,111 @@ describe("the shader editor", () => {
     expect(await editor().inputValue()).toBe("  ");
     await editor().press("Shift+Tab");
     expect(await editor().evaluate((e) => e === document.activeElement)).toBe(false);
+  });
+});
+
+const kMapCode = `#uicontrol transferFunction map(controlPoints=[[0.2, "#000000", 0], [0.9, "#ff8000", 0.4]])
+void main() {
+  emitRGBA(map());
+}`;
+
+async function apply(code: string): Promise<void> {
+  await editor().fill(code);
+  await client.after(() => editor().press("Control+Enter"));
+}
+
+describe("a transferFunction control", () => {
+  const points = () => client.page.locator(".shader-map .map-point");
+  const field = (name: string) =>
+    client.page.locator(".shader-map").getByRole("textbox", { name, exact: true });
+
+  it("is edited by mouse, by keyboard and in numbers", async () => {
+    await apply(kMapCode);
+    const declared = await picture();
+    const ground = await client.page.locator(".shader-map .map-ground").boundingBox();
+    if (!ground) throw new Error("the editor has no ground");
+    await client.after(async () => {
+      await client.page.mouse.dblclick(ground.x + ground.width * 0.6, ground.y + 20);
+    });
+    expect(await points().count()).toBe(3);
+    expect(await picture(), "a new point changes nothing").toBe(declared);
+    const middle = points().nth(1);
+    expect(await middle.getAttribute("aria-pressed")).toBe("true");
+    const seen = new Set([declared]);
+    const steps = [
+      async () => {
+        const box = await middle.boundingBox();
+        if (!box) throw new Error("the point has no box");
+        await client.page.mouse.move(box.x + 12, box.y + 12);
+        await client.page.mouse.down();
+        await client.page.mouse.move(box.x - 20, box.y - 30, { steps: 4 });
+        await client.page.mouse.up();
+      },
+      () => middle.press("ArrowUp"),
+      () => middle.press("ArrowRight"),
+      async () => {
+        await field("Opacity %").fill("80");
+        await field("Opacity %").press("Enter");
+      },
+      () => client.page.locator(".shader-map").getByLabel("Colour").fill("#00ff00"),
+    ];
+    for (const step of steps) {
+      await client.after(step);
+      seen.add(await picture());
+    }
+    expect(seen.size).toBe(steps.length + 1);
+    await client.after(() => middle.press("Delete"));
+    expect(await picture(), "without it the map is as declared").toBe(declared);
+    const before = await points().first().boundingBox();
+    await client.after(async () => {
+      await field("Window to").fill("2");
+      await field("Window to").press("Enter");
+    });
+    expect(await picture(), "the window is the editor's own").toBe(declared);
+    expect((await points().first().boundingBox())?.x).not.toBe(before?.x);
+    expect(client.complaints).toEqual([]);
+  });
+});
+
+describe("code on cross-sections and on a mesh", () => {
+  it("colours planes", async () => {
+    const radio = (name: RegExp) => client.page.getByRole("radio", { name });
+    await client.after(() => radio(/^Sections/).check({ force: true }));
+    const byMap = await picture();
+    await apply("void main() { emitRGB(vec3(0.0, toNormalized(getDataValue()), 0.0)); }");
+    expect(await picture()).not.toBe(byMap);
+    await client.after(() => radio(/^Volume/).check({ force: true }));
+  });
+
+  it("shows fields by their number, sampled as the panel says", async () => {
+    const row = client.page.locator('.dataset[data-dataset="demo:mesh"]');
+    await client.after(() => row.locator(".dataset-choose").click());
+    const byMap = await picture();
+    const code = client.page.locator("section", { hasText: "Shader" }).locator("details");
+    if ((await code.getAttribute("open")) === null) await code.locator("summary").click();
+    await apply(
+      "#uicontrol invlerp range\n#uicontrol float opacity slider(min=0, max=1, default=0.2)\n" +
+        "void main() { float x = range(); emitRGBA(vec4(x, 1.0 - x, 0.5, opacity * x)); }",
+    );
+    const seen = new Set([byMap, await picture()]);
+    const steps = [
+      () => client.page.getByRole("slider", { name: "opacity" }).fill("0.9"),
+      async () => {
+        await client.page
+          .getByRole("combobox", { name: "Samples", exact: true })
+          .selectOption({ label: "By their number" });
+      },
+      async () => {
+        const count = client.page.getByRole("textbox", { name: "Samples over the depth" });
+        await count.fill("2");
+        await count.press("Enter");
+      },
+    ];
+    for (const step of steps) {
+      await client.after(step);
+      seen.add(await picture());
+    }
+    expect(seen.size).toBeGreaterThanOrEqual(4);
+    expect(client.complaints).toEqual([]);
   });
 });

@@ -63,13 +63,47 @@ describe("a volume of voxels", () => {
     expect(client.complaints).toEqual([]);
   });
 
+  it("is jittered by a seed, sliced, and sampled 64 times over its depth", async () => {
+    await client.after(() => choose("Samples", "Half a voxel apart"));
+    const plain = await picture();
+    await expectEachDiffers([
+      () => check("Jitter: noise instead of bands", true),
+      () => type("Seed", "7"),
+    ]);
+    await client.after(() => check("Jitter: noise instead of bands", false));
+    expect(await picture()).toBe(plain);
+    await expectEachDiffers([
+      () => choose("Drawn by", "Slices across the view"),
+      () => choose("Samples", "By their number"),
+    ]);
+    const samples = client.page.getByRole("textbox", { name: "Samples over the depth" });
+    expect(await samples.inputValue()).toBe("64");
+    await client.after(() => choose("Drawn by", "Whatever is faster"));
+    await client.after(() => choose("Samples", "Half a voxel apart"));
+    expect(await picture()).toBe(plain);
+  });
+
+  it("is as accurate as is wished, with a bound where that needs one", async () => {
+    await client.after(() => choose("Wish", "Fastest"));
+    const fastest = await picture();
+    await expectEachDiffers([() => choose("Wish", "Exact")]);
+    await client.after(() => choose("Wish", "Error at most"));
+    await client.after(() => type("Error, in 1/255", "0.5"));
+    await client.after(() => choose("Wish", "Time at most"));
+    await client.after(() => type("Time, ms a picture", "2000"));
+    expect(await client.page.locator(".refusal").count()).toBe(0);
+    await client.after(() => choose("Wish", "Fastest"));
+    expect(await picture()).toBe(fastest);
+    await client.after(() => choose("Wish", "Automatic"));
+  });
+
   it("is drawn by every integrator that is offered", async () => {
     const choice = client.page.getByRole("combobox", { name: "Integrator", exact: true });
     const labels = await choice.locator("option").allTextContents();
     expect(labels).toHaveLength(7);
     for (const label of labels.slice(1)) await client.after(() => choose("Integrator", label));
     expect(await client.page.locator(".refusal").count()).toBe(0);
-    await client.after(() => choose("Integrator", "Automatic"));
+    await client.after(() => choose("Integrator", "As the wish asks"));
   });
 
   it("is lit from the eye and from a point", async () => {

@@ -25,6 +25,7 @@ inline volume::MarchTraits marchTraits(const scene::RayModelRow& row, int varian
             .shaded = bit(2) && row.model == scene::RayModel::kVolume,
             .interval = bit(4) != bit(1),
             .jitters = first && bit(3),
+            .missing = bit(0) != bit(4),
             .clipPlanes = bit(3) != bit(2) ? 2 : 0};
 }
 

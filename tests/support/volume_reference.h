@@ -76,6 +76,35 @@ public:
         return sum;
     }
 
+    /// The direction in which the field rises most, of length 1 in the world, or 0: by differences
+    /// over a grid interval to each side within the box.
+    [[nodiscard]] glm::dvec3 normalAt(const glm::dvec3& world) const {
+        glm::dvec3 slope{0.0};
+        for (int axis = 0; axis < 3; ++axis) {
+            const glm::dvec3 way = volume_.direction[axis] * volume_.spacing[axis];
+            const double at = gridFrom(world)[axis];
+            const double back = std::min(at, 1.0);
+            const double ahead = std::min(volume_.size[axis] - 1 - at, 1.0);
+            const double rise = valueAt(world + ahead * way) - valueAt(world - back * way);
+            slope += rise / std::max(back + ahead, 0.5) / volume_.spacing[axis] *
+                     volume_.direction[axis];
+        }
+        const double size = glm::length(slope);
+        return size > 0.0 ? slope / size : glm::dvec3{0.0};
+    }
+
+    /// What `light` makes of the colour of matter at a place, seen along `direction`.
+    [[nodiscard]] glm::dvec3 lit(const glm::dvec3& colour, const scene::Light& light,
+                                 const glm::dvec3& world, const glm::dvec3& direction) const {
+        const glm::dvec3 normal = normalAt(world);
+        const glm::dvec3 towards =
+            light.position ? glm::normalize(*light.position - world) : -direction;
+        const glm::dvec3 half = glm::normalize(towards - direction);
+        const double facing = normal == glm::dvec3{0.0} ? 1.0 : std::abs(glm::dot(normal, towards));
+        return colour * (light.ambient + light.diffuse * facing) +
+               light.specular * std::pow(std::abs(glm::dot(normal, half)), light.exponent);
+    }
+
     /// The values in the middle of `samples` equal steps; none where the ray misses the volume.
     [[nodiscard]] std::vector<double> valuesOn(const ReferenceRay& ray, int samples) const {
         const glm::dvec2 inside = span(ray);

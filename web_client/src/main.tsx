@@ -1,6 +1,7 @@
 import { computed, effect, type ReadonlySignal, signal, untracked } from "@preact/signals";
 import { render } from "preact";
 import type { Frame } from "./net/framing";
+import { Codec } from "./net/gen/volcast/v1/frame_pb";
 import { Session } from "./net/session";
 import { savePicture } from "./save_picture";
 import {
@@ -20,8 +21,9 @@ import { codeToDescribe } from "./state/shader_actions";
 import { App } from "./ui/app";
 import type { AppPort } from "./ui/port";
 import "./ui/style.css";
+import { codecsHere } from "./video/codecs";
 import { openScreen } from "./video/screen";
-import type { PictureReport } from "./video/worker_messages";
+import type { EncodedPicture, PictureReport } from "./video/worker_messages";
 import { withOtherProjection } from "./view/camera";
 import { controlCamera } from "./view/camera_control";
 import { followHover, type HoverPlace, pixelAt } from "./view/hover";
@@ -31,11 +33,13 @@ import { followSize, limited } from "./view/viewport";
 
 declare global {
   interface Window {
-    /** Measurements for benchmarks in ms, oldest first: input to drawn, and stages of pictures. */
+    /** For benchmarks: measurements in ms, oldest first, of input to drawn and of stages of pictures. */
     volcast: {
       latencies(): readonly number[];
       stages(): readonly Stages[];
       clearLatencies(): void;
+      /** What pacing must not change, until the view is opened anew. */
+      setPins(pins: Parameters<Session["setPins"]>[0]): void;
     };
   }
 }
@@ -45,8 +49,11 @@ const state = createAppState();
 const helpOpen = signal(false);
 const picture = createPictureElement();
 const recorder = new Recorder(state);
-const screen = openScreen(picture.canvas, reported, (reason) =>
-  notify(state, "error", `Pictures cannot be shown: ${reason}`),
+const screen = openScreen(
+  picture.canvas,
+  reported,
+  ({ codec, rgb, error }) => session.patchDecoded(codec, rgb, error),
+  (reason) => notify(state, "error", `Pictures cannot be shown: ${reason}`),
 );
 
 /** Frames that the screen works on, by view and sequence. */
@@ -60,13 +67,13 @@ const kept = keptDocument();
 if (kept) restoreDocument(state, kept);
 
 const address = `${location.protocol === "https:" ? "wss" : "ws"}://${location.host}/v1/ws`;
-const session = new Session(address, state, {
+const session = new Session(address, state, codecsHere(), {
   frame(frame, receivedAt) {
     const { view, sequence } = frame.prefix;
     underway.set(`${view} ${sequence}`, { frame, bytes: frame.payload.length });
-    const { payload } = frame;
-    screen.show({ view, sequence, codec: frame.header.codec, payload, receivedAt });
+    screen.show(encodedPicture(frame, receivedAt));
   },
+  patch: (frame) => screen.tryPatch(encodedPicture(frame, 0)),
   opened(scene) {
     adopt(() => adoptScene(state, scene));
     if (state.orbit.value !== state.home.value) session.mark("camera");
@@ -74,6 +81,13 @@ const session = new Session(address, state, {
   restored: (document) => adopt(() => restoreDocument(state, document)),
   current: () => currentDocument(state),
 });
+
+function encodedPicture({ prefix, header, payload }: Frame, receivedAt: number): EncodedPicture {
+  const { view, sequence } = prefix;
+  const { codec, width, height, keyframe, lossless, pixelsXxh32 } = header;
+  const about = { codec, width, height, keyframe, lossless, pixelsXxh32 };
+  return { view, sequence, ...about, payload, receivedAt };
+}
 
 function adopt(change: () => void): void {
   adopting = true;
@@ -86,8 +100,9 @@ function reported(report: PictureReport): void {
   const item = underway.get(id);
   underway.delete(id);
   const holdMs = report.doneAt - report.receivedAt;
-  session.acknowledge(report.view, report.sequence, holdMs, report.decodeMs, report.queue);
-  if (report.kind === "failed") {
+  const { view, sequence, decodeMs, queue, keyframeNeeded } = report;
+  session.acknowledge(view, sequence, holdMs, decodeMs, queue, keyframeNeeded);
+  if (report.kind === "failed" && !keyframeNeeded) {
     notify(state, "error", `Picture ${report.sequence} could not be decoded: ${report.reason}`);
   }
   if (report.kind !== "drawn" || !item) return;
@@ -112,6 +127,7 @@ function reported(report: PictureReport): void {
     timings: header.timings,
     bytes: item.bytes,
     decodeMs: report.decodeMs,
+    exact: report.exact,
   };
   state.picture.value = shown;
   const { dataset } = picture.element;
@@ -119,6 +135,8 @@ function reported(report: PictureReport): void {
   dataset.sequence = String(report.sequence);
   dataset.inputSeq = String(header.inputSeq);
   dataset.lossless = String(header.lossless);
+  dataset.exact = String(report.exact ?? "");
+  dataset.codec = Codec[header.codec] ?? "";
   dataset.workerGeneration = String(header.workerGeneration);
   dataset.size = `${header.width}x${header.height}`;
   keepHeight(picture, header.width / Math.max(1, header.height));
@@ -239,6 +257,7 @@ window.volcast = {
   latencies: () => recorder.latencies(),
   stages: () => recorder.stages(),
   clearLatencies: () => recorder.clear(),
+  setPins: (pins) => session.setPins(pins),
 };
 
 const app = document.getElementById("app");

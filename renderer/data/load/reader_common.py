@@ -101,7 +101,7 @@ class Sender:
         length = 1 << 24
         starts = range(0, voxels.size, length)
         for start in starts:  # All before the first is sent: a record that has begun must end.
-            require_finite(f'channel "{name}"', voxels[start:start + length], start)
+            require_not_infinite(f'channel "{name}"', voxels[start:start + length], start)
         self.head(CHANNEL, name, voxels.size * voxels.dtype.itemsize)
         for start in starts:
             part = voxels[start:start + length]
@@ -114,18 +114,18 @@ def little(values, dtype):
     return numpy.ascontiguousarray(values, dtype=dtype).reshape(-1).view("u1").data
 
 
-def require_finite(what, values, first=0):
-    """`first`: index of the first value in its array."""
+def require_finite(what, values):
     import numpy
     if values.dtype.kind == "f":
-        refuse_bad(what, values, ~numpy.isfinite(values), "not finite", first)
+        refuse_bad(what, values, ~numpy.isfinite(values), "not finite")
 
 
-def require_not_infinite(what, values):
-    """For fields of meshes, where NaN stands for no value."""
+def require_not_infinite(what, values, first=0):
+    """For fields and voxels, where NaN stands for no value; `first`: index of the first value in its
+    array."""
     import numpy
     if values.dtype.kind == "f":
-        refuse_bad(what, values, numpy.isinf(values), "infinite")
+        refuse_bad(what, values, numpy.isinf(values), "infinite", first)
 
 
 def refuse_bad(what, values, bad, adjective, first=0):
@@ -168,7 +168,7 @@ def send_volume(send, size, spacing, origin, direction, channels):
             raise Refusal(f'channel "{name}": has {values.size} values, the grid of '
                           f"{size[0]} x {size[1]} x {size[2]} needs {size[0] * size[1] * size[2]}")
         if kind == "f32" and values.dtype != numpy.float32:
-            require_finite(f'channel "{name}"', values)
+            require_not_infinite(f'channel "{name}"', values)
             with numpy.errstate(over="ignore"):
                 values = values.astype("f4")
         send.channel(name, values)

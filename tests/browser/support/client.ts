@@ -18,6 +18,8 @@ export class Client {
   readonly complaints: string[] = [];
   /** The newest lossless frame that came over the wire. */
   lossless: Frame | undefined;
+  /** Colour patches that came over the wire. */
+  readonly patches: Frame[] = [];
 
   private constructor(page: Page) {
     this.page = page;
@@ -29,6 +31,7 @@ export class Client {
         if (!isFrame(bytes)) return;
         const frame = decodeFrame(bytes);
         if (frame.header.lossless) this.lossless = frame;
+        if (frame.header.patch) this.patches.push(frame);
       });
     });
   }
@@ -77,7 +80,9 @@ export class Client {
   }
 
   /** A fact about the picture on the screen, from the element that holds it. */
-  async fact(name: "inputSeq" | "lossless" | "view" | "size" | "workerGeneration") {
+  async fact(
+    name: "inputSeq" | "lossless" | "exact" | "codec" | "view" | "size" | "workerGeneration",
+  ) {
     return this.page.evaluate(
       (key) => document.querySelector<HTMLElement>(".picture")?.dataset[key] ?? "",
       name,

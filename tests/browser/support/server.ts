@@ -40,9 +40,15 @@ export class Server {
   readonly port: number;
   readonly #process: ChildProcess;
   readonly #folder: string;
+  #said = "";
 
   private constructor(process: ChildProcess, folder: string, url: string) {
     this.#process = process;
+    const listen = (text: Buffer): void => {
+      this.#said += text.toString();
+    };
+    process.stdout?.on("data", listen);
+    process.stderr?.on("data", listen);
     this.#folder = folder;
     this.url = url;
     this.port = Number(new URL(url).port);
@@ -77,6 +83,11 @@ export class Server {
     if (page.includes('id="app"')) return server;
     await server.stop();
     throw new Error("the server has no web client to hand out: npm run build in web_client");
+  }
+
+  /** What the log says of answers to colour patches, a line each. */
+  patches(): string[] {
+    return this.#said.split("\n").filter((line) => line.includes("event=patch "));
   }
 
   /** Process ids of its GL workers, the spare one included. */

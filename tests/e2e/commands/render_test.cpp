@@ -98,6 +98,39 @@ TEST(RenderCommand, ExplainSaysWhatIsOnAndOffAndWhy) {
     EXPECT_NE(run.out.find("  off "), std::string::npos) << run.out;
 }
 
+TEST(RenderCommand, CountsSamplesByTheUsualNumberWhereNoneIsGiven) {
+    const auto explained = [](const std::vector<std::string>& more) {
+        std::vector<std::string> words{"demo:volume", "--size", "16", "16", "--explain"};
+        words.insert(words.end(), more.begin(), more.end());
+        const Outcome run = render(words);
+        EXPECT_EQ(run.exitCode, 0) << run.err;
+        return run.out;
+    };
+    const std::string usual = "64 samples over the depth of the data";
+    EXPECT_NE(explained({"--depth-samples"}).find(usual), std::string::npos);
+    EXPECT_NE(explained({"--depth-samples", "--sampling", "nearest"}).find(usual),
+              std::string::npos);
+    EXPECT_NE(explained({"--depth-samples", "80"}).find("80 samples"), std::string::npos);
+    EXPECT_EQ(explained({}).find("samples over"), std::string::npos);
+    EXPECT_NE(render({"demo:volume", "--depth-samples", "0"}).exitCode, 0);
+    EXPECT_NE(render({"demo:volume", "--depth-samples", "--step", "1"}).exitCode, 0);
+}
+
+TEST(RenderCommand, RefusesBudgetsThatAreNone) {
+    for (const char* budget : {"15", "1048577", "-1", "lots", ""}) {
+        for (const char* command : {"render", "serve"}) {
+            const std::string what = std::string{command} + " --volume-budget=" + budget;
+            const Outcome run =
+                runVolcast({command, command == std::string{"render"} ? "demo:volume" : "--port=0",
+                            "--volume-budget=" + std::string{budget}});
+            EXPECT_NE(run.exitCode, 0) << what;
+            EXPECT_NE(run.err.find("--volume-budget"), std::string::npos) << what << run.err;
+        }
+    }
+    EXPECT_NE(render({"demo:volume", "--volume-budget", "15"}).err.find("16"), std::string::npos);
+    EXPECT_EQ(render({"demo:volume", "--volume-budget", "16", "--size", "8", "8"}).exitCode, 0);
+}
+
 TEST(RenderCommand, DrawsASceneDocument) {
     const Folder folder;
     const std::string scene = folder.write("scene.json", R"({

@@ -112,9 +112,12 @@ TEST_F(BadInput, LegacyVtkTruncatedAbsurdAndNotFinite) {
         "DATASET STRUCTURED_POINTS\nDIMENSIONS 2 1 1\nORIGIN 0 0 0\n"
         "SPACING 1 1 1\nPOINT_DATA 2\nSCALARS v float 1\n"
         "LOOKUP_TABLE default\n";
-    const std::string oneAndNan{"\x3f\x80\x00\x00\x7f\xc0\x00\x00\n", 9};  // Big-endian.
-    expectRefused(folder.write("nan.vtk", binary + oneAndNan), kInvalid,
-                  "\"v\": value nan at index 1");
+    const std::string oneAndInfinity{"\x3f\x80\x00\x00\x7f\x80\x00\x00\n", 9};  // Big-endian.
+    expectRefused(folder.write("inf.vtk", binary + oneAndInfinity), kInvalid,
+                  "\"v\": value inf at index 1");
+    const std::string nanAndNan{"\x7f\xc0\x00\x00\x7f\xc0\x00\x00\n", 9};
+    expectRefused(folder.write("nan.vtk", binary + nanAndNan), kInvalid,
+                  "channel 'v': has no value, all 2 voxels are NaN");
 }
 
 TEST_F(BadInput, TetgenFiles) {
@@ -193,10 +196,17 @@ TEST_F(BadInput, Grids) {
     expectRefused(folder.write("type.mhd", mhd("2 2 2", "MET_STRING", "eight.raw")),
                   ErrorCode::kUnsupported, "MET_STRING");
     std::string values(32, '\0');
+    values.replace(20, 4, std::string{"\x00\x00\x80\x7f", 4});
+    folder.write("inf.raw", values);
+    expectRefused(folder.write("inf.mhd", mhd("2 2 2", "MET_FLOAT", "inf.raw")), kInvalid,
+                  "value inf at index 5");
     values.replace(20, 4, std::string{"\x00\x00\xc0\x7f", 4});
     folder.write("nan.raw", values);
-    expectRefused(folder.write("nan.mhd", mhd("2 2 2", "MET_FLOAT", "nan.raw")), kInvalid,
-                  "value nan at index 5");
+    EXPECT_EQ(volume(folder.write("nan.mhd", mhd("2 2 2", "MET_FLOAT", "nan.raw")))
+                  .channels[0]
+                  .voxelsWithoutValue,
+              1U);
+    EXPECT_EQ(warnings.size(), 1U);
     const std::string nrrd = "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 2 2 2\n";
     expectRefused(folder.write("cut.nrrd", nrrd + "encoding: raw\n\n1234"), kInvalid, "bytes");
     expectRefused(folder.write("packed.nrrd", nrrd + "encoding: gzip\n\n12345678"), kInvalid,

@@ -36,7 +36,7 @@ void PrintTo(const Family& family, std::ostream* out) {
     *out << family.maker;
 }
 
-// Each row: empty, cut off, NaN (a mesh keeps NaN among its fields' values: infinity there), absurd
+// Each row: empty, cut off, NaN (infinity among values, where NaN means that there is none), absurd
 // size, another kind of file, a value of a wrong type.
 const Family kFamilies[] = {
     {"node",
@@ -134,7 +134,7 @@ const Family kFamilies[] = {
      ".vti",
      {kInvalid, "is empty"},
      {kInvalid, "Error parsing XML"},
-     {kInvalid, "channel \"heat\": value nan at index 5 is not finite"},
+     {kInvalid, "channel \"heat\": value inf at index 5 is infinite"},
      {kLimit, "WholeExtent says 1000000000000 points, which"},
      {kInvalid, "no <VTKFile> in it"},
      {kInvalid, "Unknown data type \"Complex64\""}},
@@ -143,7 +143,7 @@ const Family kFamilies[] = {
      ".vtk",
      {kInvalid, "is empty"},
      {kInvalid, "Error reading binary data"},
-     {kInvalid, "channel \"heat\": value nan at index 5 is not finite"},
+     {kInvalid, "channel \"heat\": value inf at index 5 is infinite"},
      {kLimit, "DIMENSIONS says 999700029999 points, which"},
      {kInvalid, "does not start with \"# vtk DataFile\""},
      {kInvalid, "Unsupported data type: complex"}},
@@ -161,7 +161,7 @@ const Family kFamilies[] = {
      ".mhd",
      {kInvalid, "is empty"},
      {kInvalid, "says 8 values of 4 bytes, its data file cut.raw has 29 bytes"},
-     {kInvalid, "channel \"nan\": value nan at index 5 is not finite"},
+     {kInvalid, "channel \"nan\": value inf at index 5 is infinite"},
      {kInvalid, "says 999700029999 values of 4 bytes, its data file good.raw has 32 bytes"},
      {kInvalid, "is no MetaImage header"},
      {kUnsupported, "ElementType MET_STRING is not known"}},
@@ -170,7 +170,7 @@ const Family kFamilies[] = {
      ".nrrd",
      {kInvalid, "is empty"},
      {kInvalid, "has 29 bytes, 8 values of type float32 need 32"},
-     {kInvalid, "channel \"nan\": value nan at index 5 is not finite"},
+     {kInvalid, "channel \"nan\": value inf at index 5 is infinite"},
      {kInvalid, "says 999700029999 values of 4 bytes"},
      {kInvalid, "does not start with \"NRRD000\""},
      {kUnsupported, "type block is not known"}},
@@ -179,7 +179,7 @@ const Family kFamilies[] = {
      ".nii",
      {kInvalid, "is empty"},
      {kInvalid, "has 29 bytes, 8 values of type float32 need 32"},
-     {kInvalid, "channel \"nan\": value nan at index 5 is not finite"},
+     {kInvalid, "channel \"nan\": value inf at index 5 is infinite"},
      {kInvalid, "says 999700029999 values of 4 bytes"},
      {kInvalid, "a NIfTI header has 348"},
      {kUnsupported, "data type 128 is not read"}},
@@ -215,7 +215,7 @@ const Family kFamilies[] = {
      ".tif",
      {kInvalid, "is empty"},
      {kInvalid, "is cut off: page 1 lies behind its end"},
-     {kInvalid, "page 1: pixel (1, 0) is nan, not a finite number"},
+     {kInvalid, "page 1: pixel (1, 0) is inf; values are finite"},
      {kLimit, "says 9999 x 9999 pixels, which"},
      {kInvalid, "cannot be read as TIFF"},
      {kInvalid, "has pixels of type int16, those of the first slice are float"}},
@@ -224,7 +224,7 @@ const Family kFamilies[] = {
      "/slice2.tif",
      {kInvalid, "is empty"},
      {kInvalid, "cannot be read as TIFF"},
-     {kInvalid, "page 0: pixel (1, 0) is nan, not a finite number"},
+     {kInvalid, "page 0: pixel (1, 0) is inf; values are finite"},
      {kLimit, "says 9999 x 9999 pixels, which"},
      {kInvalid, "cannot be read as TIFF"},
      {kInvalid, "has pixels of type int16, those of the first slice are float"}},
@@ -233,7 +233,7 @@ const Family kFamilies[] = {
      "/slice2.png",
      {kInvalid, "is empty"},
      {kInvalid, "cannot be read"},
-     none("PNG holds whole numbers, of which none is NaN"),
+     none("PNG holds whole numbers, of which none is infinite"),
      {kLimit, "says 9999 x 9999 pixels, which"},
      {kInvalid, "cannot be read as PNG"},
      {kInvalid, "has pixels of type uint16, those of the first slice are uint8"}},

@@ -15,7 +15,7 @@ CORNERS = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1,
 FACES = [(0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)]
 TRIANGLES = [t for f in FACES for t in ((f[0], f[1], f[2]), (f[0], f[2], f[3]))]
 VALUES = [float(i) for i in range(8)]
-WITH_NAN = VALUES[:5] + [float("nan")] + VALUES[6:]
+WITH_INFINITY = VALUES[:5] + [float("inf")] + VALUES[6:]
 
 
 def png(rows, bits=8):
@@ -196,7 +196,7 @@ def make_vti():
 <PointData><DataArray type="{kind}" Name="heat" format="binary">{coded}</DataArray></PointData>
 </Piece></ImageData></VTKFile>"""
     good = text()
-    put_all(".vti", good, cut=good[:len(good) // 2], nan=text(WITH_NAN),
+    put_all(".vti", good, cut=good[:len(good) // 2], nan=text(WITH_INFINITY),
             absurd=text(extent="0 9999 0 9999 0 9999"), typed=text(kind="Complex64"))
 
 
@@ -207,7 +207,7 @@ def make_vtk():
                 f"SCALARS heat {kind} 1\nLOOKUP_TABLE default\n").encode() + struct.pack(
                     ">8f", *values) + b"\n"
     good = binary()
-    put_all(".vtk", good, cut=good[:-14], nan=binary(WITH_NAN), absurd=binary(size="9999 9999 9999"),
+    put_all(".vtk", good, cut=good[:-14], nan=binary(WITH_INFINITY), absurd=binary(size="9999 9999 9999"),
             typed=binary(kind="complex"))
 
 
@@ -251,7 +251,7 @@ def make_mhd():
         return (f"ObjectType = Image\nNDims = 3\nDimSize = {size}\nElementType = {kind}\n"
                 f"ElementDataFile = {name}.raw\n")
     good = struct.pack("<8f", *VALUES)
-    for name, data in (("good", good), ("cut", good[:-3]), ("nan", struct.pack("<8f", *WITH_NAN))):
+    for name, data in (("good", good), ("cut", good[:-3]), ("nan", struct.pack("<8f", *WITH_INFINITY))):
         put(name + ".raw", data)
     put_all(".mhd", head("good"), cut=head("cut"), nan=head("nan"),
             absurd=head("good", "9999 9999 9999"), typed=head("good", kind="MET_STRING"))
@@ -262,7 +262,7 @@ def make_nrrd():
         return (f"NRRD0004\ntype: {kind}\ndimension: 3\nsizes: {size}\nendian: little\n"
                 "encoding: raw\n\n").encode() + struct.pack("<8f", *values)
     good = file()
-    put_all(".nrrd", good, cut=good[:-3], nan=file(WITH_NAN), absurd=file(size="9999 9999 9999"),
+    put_all(".nrrd", good, cut=good[:-3], nan=file(WITH_INFINITY), absurd=file(size="9999 9999 9999"),
             typed=file(kind="block"))
 
 
@@ -277,7 +277,7 @@ def make_nifti():
         head[344:348] = b"n+1\0"
         return bytes(head) + struct.pack("<8f", *values)
     good = file()
-    put_all(".nii", good, cut=good[:-3], nan=file(WITH_NAN), absurd=file(side=9999),
+    put_all(".nii", good, cut=good[:-3], nan=file(WITH_INFINITY), absurd=file(side=9999),
             typed=file(kind=128))
 
 
@@ -360,19 +360,19 @@ def make_gmsh():
 
 
 PAGES = [[[0, 1], [2, 3]], [[4, 5], [6, 7]]]
-NAN_PAGES = [PAGES[0], [[4, float("nan")], [6, 7]]]
+INFINITE_PAGES = [PAGES[0], [[4, float("inf")], [6, 7]]]
 
 
 def make_tiff_pages():
     good = tiff(PAGES)
-    put_all(".tif", good, cut=good[:-100], nan=tiff(NAN_PAGES),
+    put_all(".tif", good, cut=good[:-100], nan=tiff(INFINITE_PAGES),
             absurd=tiff(PAGES, claim=(9999, 9999)), typed=tiff(PAGES, ("<f4", "<i2")))
 
 
 def make_tiff_stack():
     first = tiff(PAGES[:1])
     second = tiff(PAGES[1:])
-    damaged = {"good": second, "empty": b"", "cut": second[:60], "nan": tiff(NAN_PAGES[1:]),
+    damaged = {"good": second, "empty": b"", "cut": second[:60], "nan": tiff(INFINITE_PAGES[1:]),
                "absurd": tiff(PAGES[1:], claim=(9999, 9999)), "kind": OTHER_KIND,
                "typed": tiff(PAGES[1:], ("<i2",))}
     for name, data in damaged.items():

@@ -68,6 +68,19 @@ TEST_F(BadInput, EachWrongMessageIsRefusedWithItsFieldAndTheViewGoesOn) {
         {hugest.c_str(), v1::ERROR_CODE_LIMIT_EXCEEDED, "viewport"},
         {pixels.c_str(), v1::ERROR_CODE_LIMIT_EXCEEDED, "viewport"},
         {noData.c_str(), v1::ERROR_CODE_NOT_FOUND, "scene"},
+        {R"({"shareView":{"view":99,"role":"ROLE_WATCH"}})", v1::ERROR_CODE_NOT_FOUND, "view"},
+        {R"({"shareView":{"view":1}})", v1::ERROR_CODE_INVALID_ARGUMENT, "role"},
+        {R"({"shareView":{"view":1,"role":"ROLE_WATCH","expiresS":2592001}})",
+         v1::ERROR_CODE_INVALID_ARGUMENT, "expires_s"},
+        {R"({"takeControl":{"view":99}})", v1::ERROR_CODE_NOT_FOUND, "view"},
+        {R"({"handOver":{"view":99,"person":1}})", v1::ERROR_CODE_NOT_FOUND, "view"},
+        {R"({"handOver":{"view":1,"person":4000000000}})", v1::ERROR_CODE_NOT_PERMITTED, ""},
+        {R"({"undo":{"view":99}})", v1::ERROR_CODE_NOT_FOUND, "view"},
+        {R"({"undo":{"view":1}})", v1::ERROR_CODE_NOT_FOUND, ""},
+        {R"({"openView":{"view":2,"link":"x","viewport":{"width":9,"height":9}}})",
+         v1::ERROR_CODE_NOT_PERMITTED, "link"},
+        {R"({"openView":{"view":2,"link":"x","dataset":"y","viewport":{"width":9,"height":9}}})",
+         v1::ERROR_CODE_INVALID_ARGUMENT, "dataset"},
     };
     for (const Refused& row : rows) {
         const v1::Error error = errorTo(row.json);

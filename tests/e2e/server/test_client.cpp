@@ -9,13 +9,14 @@
 
 namespace volcast::test {
 
-TestClient::TestClient(std::uint16_t port, Form form, const WsOptions& options)
+TestClient::TestClient(std::uint16_t port, Form form, const WsOptions& options, v1::Hello hello)
     : socket_{WsClient::connect(port, options)}, form_{form} {
     if (!socket_) return;
-    v1::ClientMessage hello;
-    hello.mutable_hello()->set_major(protocol::kMajor);
-    hello.mutable_hello()->set_client("test");
-    send(hello);
+    v1::ClientMessage message;
+    hello.set_major(protocol::kMajor);
+    hello.set_client("test");
+    *message.mutable_hello() = std::move(hello);
+    send(message);
 }
 
 void TestClient::send(const v1::ClientMessage& message) {
@@ -90,6 +91,19 @@ std::optional<v1::Error> TestClient::waitForError() {
     return message->error();
 }
 
+std::optional<v1::ViewOpened> TestClient::waitForOpened(std::uint32_t view) {
+    const auto message = waitFor(
+        [&](const auto& one) { return one.has_view_opened() && one.view_opened().view() == view; });
+    if (!message) return std::nullopt;
+    return message->view_opened();
+}
+
+std::optional<v1::Welcome> TestClient::waitForWelcome() {
+    const auto message = waitFor([](const auto& one) { return one.has_welcome(); });
+    if (!message) return std::nullopt;
+    return message->welcome();
+}
+
 std::optional<v1::ViewStatus> TestClient::waitForState(std::uint32_t view, v1::ViewState state) {
     const auto message = waitFor([&](const auto& one) {
         return one.has_view_status() && one.view_status().view() == view &&
@@ -137,6 +151,26 @@ void TestClient::openView(std::uint32_t view, const std::string& dataset, std::u
     open.mutable_viewport()->set_height(height);
     open.set_input_seq(inputSeq);
     send(message);
+}
+
+void TestClient::join(const std::string& link, std::uint32_t view, std::uint32_t width,
+                      std::uint32_t height) {
+    v1::ClientMessage message;
+    v1::OpenView& open = *message.mutable_open_view();
+    open.set_view(view);
+    open.set_link(link);
+    open.mutable_viewport()->set_width(width);
+    open.mutable_viewport()->set_height(height);
+    send(message);
+}
+
+std::string TestClient::share(std::uint32_t view, v1::Role role) {
+    v1::ClientMessage message;
+    message.mutable_share_view()->set_view(view);
+    message.mutable_share_view()->set_role(role);
+    send(message);
+    const auto shared = waitFor([](const auto& one) { return one.has_view_shared(); });
+    return shared ? shared->view_shared().link() : std::string{};
 }
 
 void TestClient::look(std::uint32_t view, std::uint64_t inputSeq, double angle) {

@@ -27,9 +27,9 @@ class TestClient {
 public:
     enum class Form { kBinary, kJson };
 
-    /// Connects and says hello; check ok().
+    /// Connects and says hello; check ok(). `hello`: what it says besides its version.
     explicit TestClient(std::uint16_t port, Form form = Form::kBinary,
-                        const WsOptions& options = {});
+                        const WsOptions& options = {}, v1::Hello hello = {});
 
     [[nodiscard]] bool ok() const { return socket_ != nullptr; }
     [[nodiscard]] WsClient& socket() { return *socket_; }
@@ -42,6 +42,8 @@ public:
     std::optional<v1::ServerMessage> waitFor(
         const std::function<bool(const v1::ServerMessage&)>& accept);
     std::optional<v1::Error> waitForError();
+    std::optional<v1::ViewOpened> waitForOpened(std::uint32_t view = 1);
+    std::optional<v1::Welcome> waitForWelcome();
     std::optional<v1::ViewStatus> waitForState(std::uint32_t view, v1::ViewState state);
     std::optional<v1::DatasetInfo> waitForDataset(const std::string& id, v1::DatasetState state);
     std::optional<TestFrame> waitForFrame(const std::function<bool(const TestFrame&)>& accept);
@@ -50,6 +52,10 @@ public:
 
     void openView(std::uint32_t view, const std::string& dataset, std::uint32_t width = 64,
                   std::uint32_t height = 48, std::uint64_t inputSeq = 1);
+    void join(const std::string& link, std::uint32_t view = 1, std::uint32_t width = 64,
+              std::uint32_t height = 48);
+    /// A link to `view`; empty where there is none.
+    std::string share(std::uint32_t view, v1::Role role);
     /// Turns view's camera: `angle` in radians about `center`, 3 units away.
     void look(std::uint32_t view, std::uint64_t inputSeq, double angle);
 

@@ -21,6 +21,13 @@ constexpr const char* kSlow =
     "x = cos(x * 1.1); x = exp(-x * x); x = sin(x + 2.0); x = cos(x * 1.3); x = exp(-x); }\n"
     "emitRGBA(vec4(x, x, x, 1e-6)); }";
 
+constexpr const char* kSlider =
+    "#uicontrol int rounds slider(min=0, max=200, default=0)\n"
+    "void main() { float x = 0.5; for (int i = 0; i < 200; ++i) { if (i >= rounds) break;\n"
+    "x = sin(x + getDataValue()); x = cos(x * 1.1); x = exp(-x * x); x = sin(x + 2.0);\n"
+    "x = cos(x * 1.3); x = exp(-x); x = sin(x + 1.0); x = cos(x * 1.7); }\n"
+    "emitRGBA(vec4(x, x, x, 1e-6)); }";
+
 workers::RenderRequest byCode(const Service& service, std::uint64_t view, std::uint64_t tag,
                               const std::string& code) {
     workers::RenderRequest request = service.request(view, tag);
@@ -101,8 +108,42 @@ TEST(IsolatingService, AHangStallsNoOtherViewAndEndsInQuarantine) {
     service.service->submit(slow(service, 3, 11));
     const auto refused = service.events->waitForFailure(3, 11);
     ASSERT_TRUE(refused);
-    EXPECT_EQ(refused->message, "this shader code took down two GL workers and is not run again");
+    EXPECT_EQ(refused->field, "layers[0].shader.code");
+    EXPECT_THAT(refused->message, HasSubstr("which begins with \"void main() { float x = 0.5;"));
+    EXPECT_THAT(refused->message, HasSubstr("took down two GL workers and is not run again"));
     EXPECT_TRUE(service.draw(byCode(service, 2, 12, kQuick))) << "other code of the view";
+}
+
+// Its loop is bounded by a constant, and a control says how much of it is run.
+TEST(IsolatingService, CodeThatHangsByAControlIsRefusedWithThatAlone) {
+    workers::RenderSettings settings = quickSettings();
+    settings.frameDeadline = milliseconds{8'000};
+    const Service service = startIsolatingService(settings);
+    ASSERT_TRUE(service.service);
+    const auto withLoop = [&](std::uint64_t view, std::uint64_t tag, double rounds) {
+        workers::RenderRequest request = byCode(service, view, tag, kSlider);
+        request.scene.layers[0].shader.controls = {{.name = "rounds", .value = rounds}};
+        request.scene.layers[0].stepWorld = 1e-3;
+        request.size = {512, 512};
+        return request;
+    };
+    const auto good = service.draw(withLoop(1, 1, 0));
+    ASSERT_TRUE(good);
+    service.service->submit(withLoop(1, 2, 200));
+    const auto error = service.events->waitForFailure(1, 2);
+    ASSERT_TRUE(error);
+    EXPECT_EQ(error->code, ErrorCode::kDeviceLost);
+    EXPECT_EQ(error->field, "layers[0].shader.code");
+    EXPECT_THAT(error->message, HasSubstr("#uicontrol int rounds slider(min=0, max=200"));
+    EXPECT_THAT(error->message, HasSubstr("missed its deadline of 8000 ms"));
+    const auto again = service.draw(withLoop(1, 3, 0));
+    ASSERT_TRUE(again) << "the same code with its former control";
+    EXPECT_EQ(again->picture->rgba8, good->picture->rgba8);
+    service.service->submit(withLoop(2, 4, 200));
+    EXPECT_TRUE(service.events->waitForFailure(2, 4)) << "at once, in every view";
+    workers::RenderRequest hidden = withLoop(1, 5, 200);
+    hidden.scene.layers[0].visible = false;
+    EXPECT_TRUE(service.draw(hidden)) << "code of a hidden layer is not run";
 }
 
 TEST(IsolatingService, ViewsWithWorkersOfTheirOwnAreLimited) {

@@ -246,12 +246,15 @@ std::optional<RenderedFrame> Service::draw(const workers::RenderRequest& request
     return events->waitForTag(request.view, request.tag);
 }
 
-int Service::sparePid() const {
-    if (!eventually([&] { return service->status().spareReady; })) return 0;
-    for (const int child : childrenOf(::getpid())) {
-        if (child != pid() && stateOf(child) != "Z") return child;
-    }
-    return 0;
+int Service::sparePid(int before) const {
+    int found = 0;
+    // One status tells both: that of a spare that died stands until the supervisor's turn ends.
+    eventually([&] {
+        const workers::RenderStatus now = service->status();
+        if (now.spareReady && now.sparePid != before) found = now.sparePid;
+        return found != 0;
+    });
+    return found;
 }
 
 workers::RenderSettings quickSettings() {

@@ -80,8 +80,8 @@ struct Service {
     /// Submits and waits for the picture.
     std::optional<workers::RenderedFrame> draw(const workers::RenderRequest& request) const;
     [[nodiscard]] int pid() const { return service->status().workerPid; }
-    /// Waits for the warm spare and finds its process.
-    [[nodiscard]] int sparePid() const;
+    /// Waits for a warm spare that is another process than `before`; 0: there was none.
+    [[nodiscard]] int sparePid(int before = 0) const;
 };
 
 /// Deadlines as short as a busy machine allows.

@@ -202,6 +202,9 @@ TEST_F(Bricks, LevelsAreNotShifted) {
     renderer_->addDataset("volume", volume);
     const auto renderer = bricked(volume, 1);
     scene_.layers[0].map = map(-160.0F, 380.0F);
+    // Coarse voxels have longer steps: 0.08 on level 2. A sample in the middle of one is off by the
+    // square of it, of which the linear pieces of the map leave only what lies at their ends.
+    scene_.layers[0].stepWorld = 0.02;
     showAll();
     for (const Sampling sampling : {Sampling::kTrilinear, Sampling::kTricubic}) {
         scene_.layers[0].sampling = sampling;
@@ -225,6 +228,114 @@ TEST_F(Bricks, LevelsAreNotShifted) {
     const volume::BrickReport& report = parts.info.bricks.at(0).report;
     EXPECT_LT(report.finest, report.coarsest);
     EXPECT_LE(largestDifference(whole, parts), kFiltering);
+}
+
+// A linear field on level 2, whose samples lie 4 times as far from each other as on level 0: the
+// shorter the step, the closer to what ever more samples of level 0 show.
+TEST_F(Bricks, CoarseLevelsTakeLongerStepsAndConverge) {
+    const data::Volume volume = volumeAs<float>(VoxelType::kF32, linear);
+    renderer_->addDataset("volume", volume);
+    const auto renderer = bricked(volume, 1);
+    scene_.layers[0].map = map(-160.0F, 380.0F);
+    showAll();
+    for (const scene::Integrator integrator :
+         {scene::Integrator::kAverage, scene::Integrator::kPreintegrated}) {
+        scene_.layers[0].integrator = integrator;
+        scene_.layers[0].stepWorld = 0.01;
+        const support::Drawn best = draw(scene_, kSize);
+        std::vector<double> off;
+        for (const double step : {0.2, 0.1, 0.05}) {
+            scene_.layers[0].stepWorld = step;
+            const support::Drawn parts = complete(*renderer);
+            EXPECT_EQ(parts.info.bricks.at(0).report.finest, 2);
+            off.push_back(largestDifference(best, parts));
+        }
+        EXPECT_LT(off[1], off[0]) << scene::name(integrator);
+        EXPECT_LT(off[2], off[1]) << scene::name(integrator);
+        EXPECT_LT(off[2], 2e-3) << scene::name(integrator);
+        RecordProperty(
+            std::string{scene::name(integrator)},
+            std::to_string(off[0]) + ' ' + std::to_string(off[1]) + ' ' + std::to_string(off[2]));
+    }
+}
+
+// Voxels without a value: whole bricks of them, parts of bricks, single ones.
+TEST_F(Bricks, WhatHasNoValueIsDrawnAsIfItWereThereAsAWhole) {
+    const auto holed = [](const glm::dvec3& p) {
+        const bool none = p.x > 61.0 || glm::length(p - glm::dvec3(38, 30, 40)) < 9.0 ||
+                          p == glm::dvec3(20, 33, 41);
+        return none ? std::nan("") : blobs(p);
+    };
+    const data::Volume volume = volumeAs<float>(VoxelType::kF32, holed);
+    renderer_->addDataset("volume", volume);
+    const auto renderer = bricked(volume, 1);
+    scene_.layers[0].levels.values = {40.0F, 60.0F};
+    // Within the part that has values.
+    scene_.camera.center =
+        kPlace.origin + kPlace.direction * (kPlace.spacing * glm::dvec3(38, 30, 40));
+    scene_.camera.eye = scene_.camera.center + glm::dvec3(60, 40, 70);
+    for (const RayModel model : {RayModel::kVolume, RayModel::kMip, RayModel::kMinip,
+                                 RayModel::kIsosurface, RayModel::kCrossSections}) {
+        for (const Sampling sampling :
+             {Sampling::kNearest, Sampling::kTrilinear, Sampling::kTricubic}) {
+            scene_.layers[0].model = model;
+            scene_.layers[0].sampling = sampling;
+            scene_.layers[0].crossSections.point = scene_.camera.center;
+            const support::Drawn whole = draw(scene_, kSize);
+            const support::Drawn parts = complete(*renderer);
+            ASSERT_EQ(parts.info.bricks.size(), 1U);
+            EXPECT_GT(parts.info.bricks[0].report.hidden, 0U);
+            EXPECT_GT(largest(whole), 0.1F);
+            for (const float value : parts.linear) ASSERT_TRUE(std::isfinite(value));
+            const bool filtered = sampling == Sampling::kTrilinear;
+            if (model == RayModel::kIsosurface && filtered)
+                continue;  // A crossing moves with rounding.
+            EXPECT_LE(largestDifference(whole, parts), filtered ? kFiltering : 2e-6)
+                << scene::name(model) << ' ' << scene::name(sampling);
+        }
+    }
+}
+
+// Of two types there are two pools, which share the budget; of two layers each has its part of one.
+TEST_F(Bricks, LayersShareTheBudget) {
+    const data::Volume bytes = volumeAs<std::uint8_t>(VoxelType::kU8, blobs);
+    const data::Volume floats = volumeAs<float>(VoxelType::kF32, linear);
+    const std::size_t budget = 80 * volume::BrickPool::brickBytes(VoxelType::kF32);
+    auto renderer = support::must(
+        scene::Renderer::create(device(), shading::embeddedChunks(), {.volumeBytes = budget}));
+    for (scene::Renderer* each : {renderer.get(), renderer_.get()}) {
+        each->addDataset("volume", bytes);
+        each->addDataset("other", floats);
+    }
+    scene_.layers[0].sampling = Sampling::kNearest;
+    scene_.camera.orthographicHeight = 20.0;  // 0.36 a pixel: most bricks of level 0.
+    scene_.layers.push_back(scene_.layers[0]);
+    scene_.layers[1].id = "other";
+    scene_.layers[1].dataset = "other";
+    scene_.layers[1].map = map(-160.0F, 380.0F);
+    scene_.layers.push_back(scene_.layers[1]);
+    scene_.layers[2].id = "third";
+    scene_.layers[2].model = RayModel::kXray;
+    // What all take together decides: 2 channels of 8.5 MiB, although each alone has room.
+    const std::uint64_t voxels = std::uint64_t{150} * 121 * 117 * 4;
+    ASSERT_LT(voxels, budget);
+    ASSERT_GT(2 * voxels, budget);
+    const support::Drawn whole = draw(scene_, kSize);
+    const support::Drawn parts = complete(*renderer);
+    ASSERT_EQ(parts.info.bricks.size(), 3U);
+    for (const auto& layer : parts.info.bricks) {
+        EXPECT_TRUE(layer.report.ready());
+        // Half of it for 160 bricks of bytes; 64, the least of a pool, for two layers of floats.
+        const bool alone = layer.layer == "layer";
+        EXPECT_LE(layer.report.needed, alone ? 160U : 32U) << layer.layer;
+        EXPECT_EQ(layer.report.limited, !alone) << layer.layer;
+    }
+    EXPECT_GT(largest(whole), 0.3F);
+    // Alone the first has room as a whole.
+    scene_.layers.resize(1);
+    const support::Drawn one = complete(*renderer);
+    EXPECT_FALSE(one.info.plan.layers[0].has(plan::kBricks));
+    EXPECT_LE(largestDifference(draw(scene_, kSize), one), 2e-6);
 }
 
 // Where a brick was left out its coarser one stands in: what is not shown must stay so.

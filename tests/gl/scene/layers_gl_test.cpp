@@ -75,6 +75,30 @@ TEST_F(Layers, RaysOfAVolumeEndAtASurfaceWithinIt) {
     }
 }
 
+// Six planes make a box, of voxels and of cells alike.
+TEST_F(Layers, ABoxCutsAMeshAndAVolumeInOneView) {
+    renderer_->addDataset("wedge", support::must(data::buildMesh(wedge(2.0))));
+    addSurface("wedge", {0.5F, 0.25F, 0.125F});
+    const auto box = [](double back) {
+        return std::vector<scene::ClipPlane>{
+            {.normal = {1, 0, 0}, .offset = -1},   {.normal = {-1, 0, 0}, .offset = -1},
+            {.normal = {0, 1, 0}, .offset = -1},   {.normal = {0, -1, 0}, .offset = -1},
+            {.normal = {0, 0, 1}, .offset = back}, {.normal = {0, 0, -1}, .offset = -3.5}};
+    };
+    scene_.clipPlanes = box(1.0);
+    // Pixels are 4 / 9 wide: the one in the middle lies in the box, those at the edges beside it.
+    auto picture = draw(scene_, {9, 9});
+    expectFog(picture.at(4, 4), 1.5, {0.5F, 0.25F, 0.125F});
+    for (const glm::ivec2 beside : {glm::ivec2{0, 4}, {8, 4}, {4, 0}, {4, 8}}) {
+        EXPECT_EQ(picture.at(beside.x, beside.y), glm::vec4(0.0F)) << beside.x << ' ' << beside.y;
+    }
+    // The box begins in front of the surface: fog alone is left.
+    scene_.clipPlanes = box(2.2);
+    picture = draw(scene_, {9, 9});
+    EXPECT_NEAR(picture.at(4, 4).a, -std::expm1(-0.25 * 1.3), 2e-5);
+    EXPECT_NEAR(picture.at(4, 4).b, picture.at(4, 4).a, 2e-5);
+}
+
 TEST_F(Layers, ASurfaceInFrontHidesTheVolumeAndOneBehindDoesNot) {
     use(wedge(12.0));
     addSurface("mesh", {0.1F, 0.5F, 0.2F});

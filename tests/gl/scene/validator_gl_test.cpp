@@ -210,23 +210,47 @@ void Validator::addUserCode() {
         "float step = toNormalized(getDataValue()) + float(toRaw(getDataValue(1)));\n"
         "emitGrayscale(step); emitRGB(c * s); emitRGBA(m); }");
     ASSERT_TRUE(code.complaints.empty()) << code.complaints.front().message;
-    for (int variant = 0; variant < 4 * 3 * 3 * 2; ++variant) {
+    const auto textsFor = [&code](user_shader::ValueType type, bool gathers) {
+        return std::vector<shading::TextChunk>{
+            {.path = user_shader::kValuesChunk, .text = user_shader::valuesText(type, gathers)},
+            {.path = user_shader::kControlsChunk,
+             .text = user_shader::controlsText(code.controls, {1, 2}, type)},
+            {.path = user_shader::kBodyChunk, .text = code.body}};
+    };
+    constexpr std::array kModels{scene::RayModel::kVolume, scene::RayModel::kMip,
+                                 scene::RayModel::kMinip, scene::RayModel::kCrossSections};
+    for (int variant = 0; variant < 4 * 4 * 3 * 2; ++variant) {
         const auto type = static_cast<user_shader::ValueType>(variant % 4);
-        constexpr std::array kModels{scene::RayModel::kVolume, scene::RayModel::kMip,
-                                     scene::RayModel::kMinip};
-        const volume::UserTraits traits{.model = kModels[variant / 4 % 3],
-                                        .sampling = static_cast<scene::Sampling>(variant / 12 % 3),
+        const scene::RayModel model = kModels[variant / 4 % 4];
+        const bool bricked = variant % 5 == 0;
+        const volume::UserTraits traits{.model = model,
+                                        .sampling = static_cast<scene::Sampling>(variant / 16 % 3),
                                         .filterInHardware = bit(variant, 0),
-                                        .interval = variant >= 36,
+                                        .interval = variant >= 48,
                                         .clipPlanes = bit(variant, 2) ? 2 : 0,
-                                        .otherChannels = 2};
-        addRay(volume::userRecipe(
-                   traits,
-                   {{.path = user_shader::kValuesChunk, .text = user_shader::valuesText(type)},
-                    {.path = user_shader::kControlsChunk,
-                     .text = user_shader::controlsText(code.controls, {1, 2}, type)},
-                    {.path = user_shader::kBodyChunk, .text = code.body}},
-                   {{"kEndsAtSurfaces", bit(variant, 1)}}),
+                                        .otherChannels = bricked ? 0 : 2,
+                                        .field = {.bricked = bricked,
+                                                  .type = static_cast<data::VoxelType>(variant % 4),
+                                                  .coarserLevels = 2}};
+        addRay(volume::userRecipe(traits, textsFor(type, model != scene::RayModel::kCrossSections),
+                                  {{"kEndsAtSurfaces", bit(variant, 1)}}),
+               shading::kFullScreenVertex);
+    }
+    for (int variant = 0; variant < 3 * 3 * 4; ++variant) {
+        const bool counts = bit(variant, 0);
+        const mesh::WalkTraits traits{
+            .model = kModels[variant % 3],
+            .valuesAt = variant / 3 % 3,
+            .interval = bit(variant, 1),
+            .clipPlanes = bit(variant, 2) ? 2 : 0,
+            .convex = bit(variant, 3),
+            .clipsAtStart = bit(variant, 4),
+            .counts = counts,
+            .resumes = counts && bit(variant, 1),
+            .code = mesh::CodeTraits{.texts = textsFor(user_shader::ValueType::kF32, true),
+                                     .othersAt = {variant / 9 % 3, (variant + 1) % 3},
+                                     .iterations = variant}};
+        addRay(mesh::walkRecipe(traits, {{"kEndsAtSurfaces", bit(variant, 1)}}),
                shading::kFullScreenVertex);
     }
 }
@@ -345,6 +369,14 @@ void Validator::addOtherPasses() {
                                            {"kChannels", 1 + variant % 4},
                                            {"kChannelSearch", 0xe4},
                                            {"kEarlyStop", bit(variant, 2)},
+                                           {"kSkipBricks", bit(variant, 1)},
+                                           {"kShaded", bit(variant, 2)},
+                                           {"kInterval", bit(variant, 3)},
+                                           {"kJitters", bit(variant, 4)},
+                                           {"kMissing", bit(variant, 0)},
+                                           {"kRangeBlock", 4},
+                                           {"kRangeReach", 4},
+                                           {"kTricubicOvershoot", plan::kTricubicOvershoot},
                                            {"kClipPlanes", bit(variant, 0) ? 6 : 0},
                                            {"kClipsAtStart", true},
                                            {"kMaxRaySamples", plan::kMaxRaySamples}});

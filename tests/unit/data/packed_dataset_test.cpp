@@ -2,6 +2,7 @@
 
 #include <cstring>
 #include <functional>
+#include <limits>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -215,9 +216,14 @@ TEST(PackedDataset, DamagedVolumesAreRefused) {
     for (const int size : {0, -1, 19, 1 << 30}) {
         EXPECT_FALSE(unpack(poked(fd, 0, offsetof(packed::VolumeHeader, size) / 4, size)));
     }
-    EXPECT_FALSE(unpack(poked(fd, 4, 700, std::nanf(""))));
+    EXPECT_FALSE(unpack(poked(fd, 4, 700, std::nanf("")))) << "not counted";
+    constexpr std::size_t kCount = offsetof(packed::ChannelHeader, voxelsWithoutValue) / 8;
+    EXPECT_FALSE(unpack(poked(fd, 1, kCount, std::uint64_t{1})));
     EXPECT_FALSE(unpack(poked(fd, 4, 700, 1e9F)));
     EXPECT_FALSE(unpack(poked(fd, 5, 1, std::nanf(""))));
+    const float infinity = std::numeric_limits<float>::infinity();
+    const auto empty = poked(poked(fd, 5, 0, infinity), 5, 1, -infinity);
+    EXPECT_FALSE(unpack(empty)) << "a brick without a value, but no such voxels";
 }
 
 // Whatever a byte turns into, reading it ends with a dataset or an error; sanitizers watch.

@@ -1,7 +1,9 @@
 #include "renderer/data/pyramid.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
+#include <limits>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -54,6 +56,31 @@ void forEachPoint(glm::ivec3 size, const Use& use) {
             for (int x = 0; x < size.x; ++x) use(glm::ivec3{x, y, z});
         }
     }
+}
+
+TEST(Pyramid, VoxelsWithoutAValueAreLeftOutOfMeans) {
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    // A constant stays so beside a hole; within one, where no fine point counts, there is nothing.
+    const auto valueAt = [&](int x, int y, int z) {
+        const glm::ivec3 from = glm::abs(glm::ivec3{x, y, z} - glm::ivec3{64, 60, 62});
+        return std::max({from.x, from.y, from.z}) <= 5 ? nan : 7.0F;
+    };
+    const Volume volume = volumeOf<float>(VoxelType::kF32, {131, 128, 126}, valueAt);
+    EXPECT_EQ(volume.channels[0].voxelsWithoutValue, 11U * 11U * 11U);
+    int missing = 0;
+    forEachPoint(volume.levelSize(1), [&](glm::ivec3 point) {
+        const float value = voxelOf<float>(volume, 1, point);
+        const glm::ivec3 from = glm::abs(2 * point - glm::ivec3{64, 60, 62});
+        const bool within = std::max({from.x, from.y, from.z}) <= 4;  // Neighbours reach by 1.
+        ASSERT_EQ(std::isnan(value), within) << point.x << ' ' << point.y << ' ' << point.z;
+        missing += within ? 1 : 0;
+        ASSERT_FLOAT_EQ(within ? 7.0F : value, 7.0F);
+    });
+    EXPECT_EQ(missing, 5 * 5 * 5);
+    // Three points of level 1, 30 to 34 along x, have none around them either.
+    EXPECT_TRUE(std::isnan(voxelOf<float>(volume, 2, {16, 15, 15})));
+    EXPECT_FLOAT_EQ(voxelOf<float>(volume, 2, {17, 15, 15}), 7.0F);
+    EXPECT_FLOAT_EQ(voxelOf<float>(volume, 3, {8, 7, 7}), 7.0F);
 }
 
 TEST(Pyramid, SmallVolumesHaveNone) {

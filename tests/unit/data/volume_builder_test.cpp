@@ -60,7 +60,7 @@ TEST(VolumeBuilder, EveryVoxelTypeIsRead) {
     EXPECT_EQ(rangeOf(VoxelType::kF32, bytesOf<float>({-1.5F, 2.5F})), (Range{-1.5F, 2.5F}));
 }
 
-TEST(VolumeBuilder, NotANumberIsRefusedByItsPlace) {
+TEST(VolumeBuilder, InfinityIsRefusedByItsPlace) {
     VolumeInput input = ramp({4, 3, 2});
     const float bad = std::numeric_limits<float>::infinity();
     std::memcpy(input.channels[0].voxels.data() + (12 + 4 + 2) * sizeof(float), &bad, sizeof(bad));
@@ -68,6 +68,52 @@ TEST(VolumeBuilder, NotANumberIsRefusedByItsPlace) {
     EXPECT_EQ(error.code, ErrorCode::kInvalidArgument);
     EXPECT_NE(error.message.find("(2, 1, 1)"), std::string::npos) << error.message;
     EXPECT_NE(error.message.find("inf"), std::string::npos) << error.message;
+}
+
+VolumeInput withMissing(VolumeInput input, const std::vector<std::size_t>& voxels) {
+    const float missing = std::numeric_limits<float>::quiet_NaN();
+    for (const std::size_t i : voxels) {
+        std::memcpy(input.channels[0].voxels.data() + i * sizeof(float), &missing, sizeof(float));
+    }
+    return input;
+}
+
+TEST(VolumeBuilder, VoxelsWithoutAValueAreCountedAndHaveNoPartInRanges) {
+    // The first brick of 17 columns loses its smallest and its largest value, the third all.
+    const std::vector<std::size_t> missing{0, 33, 32};
+    const auto volume = buildVolume(withMissing(ramp({34, 1, 1}), missing));
+    ASSERT_TRUE(volume) << volume.error().message;
+    const Channel& channel = volume->channels[0];
+    EXPECT_EQ(channel.voxelsWithoutValue, 3U);
+    EXPECT_EQ(channel.range, (Range{1.0F, 31.0F}));
+    EXPECT_EQ(channel.bricks[0], glm::vec2(1.0F, 16.0F));
+    EXPECT_EQ(channel.bricks[1], glm::vec2(16.0F, 31.0F));
+    const float infinity = std::numeric_limits<float>::infinity();
+    EXPECT_EQ(channel.bricks[2], glm::vec2(infinity, -infinity));
+}
+
+TEST(VolumeBuilder, VoxelsWithoutAValueAreWarnedOfAndNotSummarized) {
+    const DatasetSummary one = summarize(buildVolume(withMissing(ramp({8, 8, 64}), {9})).value());
+    EXPECT_EQ(one.fields[0].voxelsWithoutValue, 1U);
+    EXPECT_EQ(warningsOf(one), std::vector<std::string>{
+                                   "1 of 4096 voxels of \"ramp\" is NaN and is drawn as empty"});
+    std::size_t counted = 0;
+    for (const std::uint32_t bin : one.fields[0].spread.histogram) counted += bin;
+    EXPECT_EQ(counted, 4095U);
+    for (const float percentile : one.fields[0].spread.percentiles) {
+        EXPECT_TRUE(std::isfinite(percentile));
+    }
+    const DatasetSummary two =
+        summarize(buildVolume(withMissing(ramp({8, 8, 64}), {1, 9})).value());
+    EXPECT_EQ(warningsOf(two), std::vector<std::string>{
+                                   "2 of 4096 voxels of \"ramp\" are NaN and are drawn as empty"});
+    EXPECT_TRUE(warningsOf(summarize(buildVolume(ramp({8, 8, 64})).value())).empty());
+}
+
+TEST(VolumeBuilder, AChannelOfNanAloneIsRefused) {
+    const auto error = buildVolume(withMissing(ramp({2, 2, 1}), {0, 1, 2, 3})).error();
+    EXPECT_EQ(error.code, ErrorCode::kInvalidArgument);
+    EXPECT_EQ(error.message, "channel 'ramp': has no value, all 4 voxels are NaN");
 }
 
 TEST(VolumeBuilder, BadGridsAreRefused) {

@@ -60,9 +60,27 @@ TEST(VolumePacker, MakesWhatBuildingAndPackingMakes) {
     }
 }
 
-TEST(VolumePacker, NotANumberIsRefusedByItsPlace) {
+TEST(VolumePacker, VoxelsWithoutAValueAreKept) {
+    VolumeInput input = inputOf({131, 128, 126});
+    const float missing = std::numeric_limits<float>::quiet_NaN();
+    for (std::size_t i = 0; i < 100; ++i) {
+        std::memcpy(input.channels[1].voxels.data() + i * i * sizeof(float), &missing, 4);
+    }
+    const auto packed = filled(input).finish({});
+    ASSERT_TRUE(packed);
+    const auto read = unpack(*packed);
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(std::get<Volume>(*read).channels[0].voxelsWithoutValue, 0U);
+    EXPECT_EQ(std::get<Volume>(*read).channels[1].voxelsWithoutValue, 100U);
+    const auto expected = pack(buildVolume(input).value()).value();
+    const auto a = base::map(*packed, false).value(), b = base::map(expected, false).value();
+    ASSERT_EQ(a.bytes.size(), b.bytes.size());
+    EXPECT_EQ(std::memcmp(a.bytes.data(), b.bytes.data(), a.bytes.size()), 0);
+}
+
+TEST(VolumePacker, InfinityIsRefusedByItsPlace) {
     VolumeInput input = inputOf({4, 3, 2});
-    const float bad = std::numeric_limits<float>::quiet_NaN();
+    const float bad = std::numeric_limits<float>::infinity();
     std::memcpy(input.channels[1].voxels.data() + (12 + 4 + 2) * sizeof(float), &bad, sizeof(bad));
     const auto error = filled(input).finish({}).error();
     EXPECT_EQ(error.code, ErrorCode::kInvalidArgument);

@@ -154,6 +154,22 @@ TEST_F(Pick, VoxelsAreSampledAsTheyAreMarched) {
     EXPECT_NEAR(shown(layer).values[0].value, 0.31 * 0.42 + 0.995 + bend, 1e-6);
 }
 
+TEST_F(Pick, VoxelsWithoutAValueShowNothing) {
+    const double nan = std::nan("");
+    add("mesh", voxels({[=](glm::dvec3 p) { return p.z > 0.5 ? nan : p.z; },
+                        [=](glm::dvec3 p) { return p.z < 0.3 ? 1.0 : nan; }}));
+    scene::Layer layer = ofVoxels(RayModel::kMip, ramp());
+    EXPECT_NEAR(shown(layer).values[0].value, 0.5, 0.0101);
+    layer.model = RayModel::kIsosurface;
+    layer.levels.values = {0.8F};
+    EXPECT_EQ(shown(layer).layer, "nothing");
+    layer.levels.values = {0.4F};
+    EXPECT_NEAR(shown(layer).position.z, 0.4, 1e-6);
+    layer.model = RayModel::kVolume;
+    layer.channels = {{.field = "c0", .map = ramp(9.0F)}, {.field = "c1", .map = ramp(0.0F)}};
+    EXPECT_EQ(shown(layer).values.size(), 1U) << "the other channel has no value there";
+}
+
 TEST_F(Pick, SamplesOverTheDepthFollowTheCamera) {
     add("mesh", voxels({alongZ}));
     scene::Layer layer = ofVoxels(RayModel::kMip, ramp());

@@ -54,8 +54,23 @@ std::vector<std::pair<std::string, std::string>> clientMeanings() {
         {"update_nothing", R"({"update":{"view":7,"inputSeq":"4"}})"},
         {"close_view", R"({"closeView":{"view":7}})"},
         {"ack", R"({"ack":{"view":7,"sequence":41,"holdUs":16700,"decodeUs":4700,"queue":1}})"},
+        {"ack_keyframe", R"({"ack":{"view":7,"sequence":42,"keyframe":true}})"},
+        {"set_pins", R"({"setPins":{"view":7,"pins":{"quality":80,"scale":0.5,"framesPerS":24,)"
+                     R"("fullAccuracy":true,"codec":"CODEC_VP9"}}})"},
+        {"set_pins_none", R"({"setPins":{"view":7,"pins":{}}})"},
+        {"patch_decoded", R"({"patchDecoded":{"codec":"CODEC_H264","rgb":"AAAA/////wAA"}})"},
+        {"patch_failed", R"({"patchDecoded":{"codec":"CODEC_VP9","error":"not supported"}})"},
         {"pick", R"({"pick":{"view":7,"inputSeq":"9007199254740993","x":8191,"y":12}})"},
+        {"inject_fault", R"({"injectFault":{"view":7,"fault":"crash"}})"},
         {"ping", R"({"ping":{"token":"9007199254740993"}})"},
+        {"hello_again", R"({"hello":{"major":1,"minor":2,"person":"Zoë","resume":"a-b_c"}})"},
+        {"open_view_link", R"({"openView":{"view":2,"viewport":{"width":64,"height":48},)"
+                           R"("link":"AQI-_w"}})"},
+        {"share_view", R"({"shareView":{"view":2,"role":"ROLE_WATCH","expiresS":3600}})"},
+        {"take_control", R"({"takeControl":{"view":2}})"},
+        {"hand_over", R"({"handOver":{"view":2,"person":4294967295}})"},
+        {"undo", R"({"undo":{"view":2}})"},
+        {"redo", R"({"undo":{"view":2,"redo":true,"inputSeq":"9007199254740993"}})"},
         {"no_body", "{}"},
     };
 }
@@ -69,6 +84,21 @@ std::vector<std::pair<std::string, std::string>> serverMeanings() {
          R"("volumeModels":["RAY_MODEL_MIP","RAY_MODEL_VOLUME"],)"
          R"("limits":{"maxViews":16,"maxSide":8192,"maxLayers":16,"maxControlPoints":1024,)"
          R"("maxMessageBytes":65536},"sourceUrl":"https://example.org/volcast"}})"},
+        {"welcome_back", R"({"welcome":{"major":1,"minor":2,"limits":{"maxPeople":256},)"
+                         R"("resume":"a-b_c","resumed":true,"person":7}})"},
+        {"view_opened_again",
+         R"({"viewOpened":{"view":2,"scene":)" + scene +
+             R"(,"id":"hU7-_x","role":"ROLE_CONTROL","inputSeq":"41","canUndo":true}})"},
+        {"scene_changed", R"({"sceneChanged":{"view":2,"scene":)" + scene +
+                              R"(,"inputSeq":"42","person":7,"canUndo":true,"canRedo":true}})"},
+        {"scene_changed_camera",
+         R"({"sceneChanged":{"view":2,"inputSeq":"43","person":7,"canUndo":true,)"
+         R"("camera":{"eye":{"x":-1.5},"center":{},"up":{"z":1},"fovyDegrees":30}}})"},
+        {"view_shared", R"({"viewShared":{"view":2,"link":"AQI-_w","url":"/#link=AQI-_w",)"
+                        R"("role":"ROLE_WATCH","expires":"1800000000"}})"},
+        {"people",
+         R"({"people":{"view":2,"people":[{"id":7,"name":"Zoë","role":"ROLE_CONTROL",)"
+         R"("steers":true},{"id":8,"name":"Guest 8","role":"ROLE_WATCH","away":true}]}})"},
         {"dataset_list_empty", R"({"datasetList":{}})"},
         {"dataset_list", R"({"datasetList":{"datasets":[{"id":"demo:mesh","name":"Demo mesh"},)"
                          R"({"id":"a b/é.vtu","name":"é.vtu","state":"DATASET_STATE_IMPORTING",)"
@@ -123,6 +153,13 @@ constexpr Meaning kFrameHeaders[] = {
      R"({"inputSeq":"9007199254740993","width":1,"height":1,"codec":"CODEC_PNG",)"
      R"("lossless":true,"final":true,"planId":"5f1c","integrators":["average","march"],)"
      R"("estimatedError":0,"timings":{},"dataVersion":"3","workerGeneration":4})"},
+    {"webp_exact", R"({"inputSeq":"4","width":2,"height":2,"codec":"CODEC_WEBP","lossless":true,)"
+                   R"("final":true,"ready":true,"pixelsXxh32":4276540828})"},
+    {"vp9_paced", R"({"inputSeq":"5","width":256,"height":192,"codec":"CODEC_VP9","keyframe":true,)"
+                  R"("pace":{"quality":75,"scale":0.5,"fullAccuracy":true,"framesPerS":15,)"
+                  R"("window":2,"underWay":1,"rttMs":62.5,"rttMinMs":50,"queueDelayMs":12.5,)"
+                  R"("bytesPerS":250000,"reason":"scale 0.75 to 0.5: queueing delay 84 ms"}})"},
+    {"patch", R"({"width":128,"height":64,"codec":"CODEC_H264","keyframe":true,"patch":true})"},
 };
 
 std::string hexOf(std::span<const std::byte> bytes) {

@@ -1,5 +1,7 @@
 #include "renderer/scene/channels.h"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "renderer/scene/validate.h"
@@ -73,6 +75,20 @@ TEST(Channels, WrongCountsAndNamesAreNamed) {
     EXPECT_EQ(errorOf(layer(), mesh).field, "layers[0].channels");
 }
 
+TEST(Channels, EachHasAnIntervalOfFiniteNumbersInOrder) {
+    Layer one = layer();
+    one.light = Light{};
+    one.channels[1].interval = data::Range{.min = 2.0F, .max = 2.0F};
+    EXPECT_EQ(errorOf(one).message, "");
+    for (const data::Range wrong :
+         {data::Range{.min = 3.0F, .max = 2.0F}, data::Range{.min = std::nanf(""), .max = 2.0F},
+          data::Range{.min = 0.0F, .max = HUGE_VALF}}) {
+        one.channels[1].interval = wrong;
+        EXPECT_EQ(errorOf(one).code, ErrorCode::kInvalidArgument);
+        EXPECT_EQ(errorOf(one).field, "layers[0].channels[1].interval");
+    }
+}
+
 TEST(Channels, WhatDrawsOneChannelSaysSo) {
     const auto fieldOf = [](const auto& change) {
         Layer wrong = layer();
@@ -82,7 +98,6 @@ TEST(Channels, WhatDrawsOneChannelSaysSo) {
         return error.field;
     };
     EXPECT_EQ(fieldOf([](Layer& l) { l.model = RayModel::kSplat; }), "layers[0].channels");
-    EXPECT_EQ(fieldOf([](Layer& l) { l.light = Light{}; }), "layers[0].light");
     EXPECT_EQ(fieldOf([](Layer& l) { l.interval = data::Range{}; }), "layers[0].interval");
     EXPECT_EQ(fieldOf([](Layer& l) { l.shader.code = "void main() {}"; }), "layers[0].shader");
     EXPECT_EQ(fieldOf([](Layer& l) { l.voxelEvaluator = VoxelEvaluator::kSlices; }),

@@ -141,7 +141,7 @@ TEST_F(Plan, StepsLeaveRoomForTheLoopsOfAllPixels) {
     EXPECT_NEAR(planned().stepWorld, longest / kMaxRaySamples, 1e-12);
     layer_.integrator = scene::Integrator::kExact;
     EXPECT_NEAR(planned().stepWorld, longest / kMaxRayPieces, 1e-12);
-    EXPECT_LE(kMaxRayPieces + kMaxRayParts, 65'535 - 16 * 256);
+    EXPECT_LE(2 * kMaxRayPieces, 65'535 - 16 * 256);
     layer_.integrator = scene::Integrator::kAdaptive;
     EXPECT_TRUE(planned().has(kStepEnlarged));
 }

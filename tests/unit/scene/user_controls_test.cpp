@@ -6,6 +6,7 @@
 #include "gmock/gmock.h"
 #include "gtest/gtest.h"
 
+#include "renderer/scene/ray_models.h"
 #include "renderer/scene/validate.h"
 
 namespace volcast::scene {
@@ -93,7 +94,9 @@ TEST(UserControlsTaken, BecomeTheControlsValues) {
     const auto& lerp = std::get<user_shader::InvLerp>(code->controls[6].kind);
     EXPECT_EQ(lerp.range, (user_shader::Interval{.from = 2.0, .to = 1.0}));
     EXPECT_EQ(lerp.channel, 3);
-    EXPECT_EQ(otherChannels(*code, 0, 4), std::vector<int>{3});
+    data::DatasetSummary summary;
+    summary.fields.resize(4);
+    EXPECT_EQ(otherChannels(*code, {}, summary), std::vector<int>{3});
 }
 
 /// A scene of one volume with `channels` channels, and its summary.
@@ -114,7 +117,7 @@ protected:
         }
         return validate(scene, {{"d", summary}});
     }
-    void expectRefused(const char* message, const char* field) {
+    void expectRefused(const std::string& message, const char* field) {
         const Result<void> result = valid();
         ASSERT_FALSE(result.has_value());
         EXPECT_THAT(result.error().message, HasSubstr(message));
@@ -159,17 +162,40 @@ TEST_F(ShaderLayer, DoubledStatesAreRefused) {
     expectRefused("the control \"s\" has a state already", "layers[0].shader.controls[1]");
 }
 
-TEST_F(ShaderLayer, ServesVolumeAndExtremesOfVoxels) {
+TEST_F(ShaderLayer, ServesWhatHasSamples) {
+    for (const RayModel model :
+         {RayModel::kVolume, RayModel::kMip, RayModel::kMinip, RayModel::kCrossSections}) {
+        layer_.model = model;
+        EXPECT_TRUE(valid().has_value());
+    }
+    for (const RayModel model : {RayModel::kMipColour, RayModel::kXray, RayModel::kSplat,
+                                 RayModel::kIsosurface, RayModel::kSurface, RayModel::kWireframe}) {
+        layer_.model = model;
+        layer_.levels.values = {0.5F};
+        expectRefused(
+            "code says what samples of volume, mip, minip and cross_sections show, not of " +
+                std::string{name(model)},
+            "layers[0].shader");
+    }
+    layer_.model = RayModel::kVolume;
+    layer_.light = Light{};
+    expectRefused("light needs the gradient of a field", "layers[0].light");
+}
+
+TEST_F(ShaderLayer, ServesMeshesByTheirFields) {
+    mesh_ = true;
     for (const RayModel model : {RayModel::kVolume, RayModel::kMip, RayModel::kMinip}) {
         layer_.model = model;
         EXPECT_TRUE(valid().has_value());
     }
-    layer_.model = RayModel::kXray;
-    expectRefused("code says what samples of volume, mip and minip show, not of xray",
-                  "layers[0].shader");
-    layer_.model = RayModel::kVolume;
-    layer_.light = Light{};
-    expectRefused("code gives colours as they are seen", "layers[0].light");
+    layer_.shader.code = "void main() { getDataValue(10); }";
+    expectRefused("there is no field 10; \"d\" has 10, from 0", "layers[0].shader");
+    layer_.shader.code = "void main() { int i = 0; getDataValue(i); }";
+    expectRefused("reads 10 fields, at most 6", "layers[0].shader");
+    layer_.shader.code = "void main() { getDataValue(9) + getDataValue(2) + getDataValue(); }";
+    EXPECT_TRUE(valid().has_value());
+    layer_.scale.domain = data::Range{.min = 0.0F, .max = 0.5F};
+    expectRefused("code is given values as they are stored", "layers[0].scale");
 }
 
 TEST_F(ShaderLayer, ChannelsMustBeThereAndFew) {

@@ -89,6 +89,15 @@ TEST(ValidateScene, NamesTheFieldAtFault) {
               (Refusal{invalid, "layers[0].step_world"}));
     EXPECT_EQ(refused([](Scene& s) { s.layers[0].surfaceColour.b = kNan; }),
               (Refusal{invalid, "layers[0].surface_colour"}));
+    for (const data::Range wrong : {data::Range{.min = 2.0F, .max = 1.0F},
+                                    data::Range{.min = kNan, .max = 1.0F},
+                                    data::Range{.min = 0.0F, .max = HUGE_VALF}}) {
+        EXPECT_EQ(refused([&](Scene& s) { s.layers[0].interval = wrong; }),
+                  (Refusal{invalid, "layers[0].interval"}));
+    }
+    Scene oneValue = sceneOf(meshSummary());  // An interval of width 0 is that value.
+    oneValue.layers[0].interval = data::Range{.min = 2.0F, .max = 2.0F};
+    EXPECT_TRUE(validate(oneValue).has_value());
     const auto refusedLight = [&](auto edit) {
         return refused([&](Scene& s) { edit(s.layers[0].light.emplace()); });
     };
@@ -126,6 +135,9 @@ TEST(ValidateScene, AgainstItsData) {
               (Refusal{ErrorCode::kNotFound, "layers[0].field"}));
     EXPECT_EQ(refused(meshSummary(), [](Layer& l) { l.timeStep = 3; }),
               (Refusal{ErrorCode::kInvalidArgument, "layers[0].time_step"}));
+    EXPECT_EQ(refused(meshSummary(),
+                      [](Layer& l) { l.scale.domain = {.min = 1.0F, .max = 1.0F}; }),
+              (Refusal{ErrorCode::kInvalidArgument, "layers[0].scale.domain"}));
     EXPECT_EQ(refused(volumeSummary(), [](Layer& l) { l.model = RayModel::kSurface; }),
               (Refusal{ErrorCode::kUnsupported, "layers[0].model"}));
     for (const auto& [field, edit] :

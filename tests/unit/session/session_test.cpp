@@ -7,46 +7,14 @@
 #include <gtest/gtest.h>
 
 #include "protocol/framing.h"
-#include "renderer/base/memfd.h"
+#include "tests/unit/session/scripted_render.h"
 
 namespace volcast::session {
 namespace {
 
-/// Writes down what is asked of it; the test draws.
-class ScriptedRender final : public workers::RenderService {
-public:
-    void addDataset(const std::string&, base::FileDescriptor) override {}
-    void removeDataset(const std::string&) override {}
-    void submit(workers::RenderRequest request) override { requests.push_back(std::move(request)); }
-    void measure(workers::MeasureRequest request) override {
-        measures.push_back(std::move(request));
-    }
-    void stopMeasuring(std::uint64_t view) override { stopped.push_back(view); }
-    void pick(workers::PickRequest request) override { picks.push_back(std::move(request)); }
-    void dropView(std::uint64_t view) override { dropped.push_back(view); }
-    [[nodiscard]] workers::RenderStatus status() const override { return {}; }
-    std::vector<workers::RenderRequest> requests;
-    std::vector<workers::MeasureRequest> measures;
-    std::vector<workers::PickRequest> picks;
-    std::vector<std::uint64_t> stopped, dropped;
-};
-
-/// A cube of voxels with one channel, without its bytes.
-Result<workers::ImportedDataset> importCube(
-    const workers::ImportRequest&, const workers::ImportSettings&,
-    const std::function<void(const std::string&, double)>&) {
-    workers::ImportedDataset imported;
-    imported.packed = *base::createMemfd("cube", 1);
-    imported.summary.isMesh = false;
-    imported.summary.bounds = {.min = glm::dvec3{0.0}, .max = glm::dvec3{1.0}};
-    imported.summary.voxels = glm::ivec3{4};
-    imported.summary.spacing = glm::dvec3{0.25};
-    data::FieldSummary field;
-    field.name = "f";
-    field.range = field.spread.usual = {.min = 0.0F, .max = 1.0F};
-    imported.summary.fields.push_back(field);
-    return imported;
-}
+using test::drawn;
+using test::importCube;
+using test::ScriptedRender;
 
 class SessionTest : public testing::Test {
 protected:
@@ -55,10 +23,14 @@ protected:
         desc.importer = importCube;
         catalogue = *Catalogue::create(std::move(desc), render);
         events = router.events();
+        views = std::make_unique<Views>(ViewsDesc{.parts = {.render = render,
+                                                            .catalogue = *catalogue,
+                                                            .router = router,
+                                                            .encoders = encoders},
+                                                  .key = *LinkKey::random()});
         shared = std::make_unique<Shared>(Shared{.render = render,
                                                  .catalogue = *catalogue,
-                                                 .router = router,
-                                                 .encoders = encoders,
+                                                 .views = *views,
                                                  .limits = {},
                                                  .server = "test",
                                                  .sourceUrl = {}});
@@ -73,6 +45,7 @@ protected:
     }
     void TearDown() override {
         session.reset();
+        views->clear();
         catalogue.reset();
     }
     void say(const std::string& json) {
@@ -96,29 +69,19 @@ protected:
         }
         return {};
     }
-    void drawLast() {
-        const workers::RenderRequest& request = render.requests.back();
-        auto picture = std::make_shared<workers::Picture>();
-        picture->size = request.size;
-        picture->rgba8.resize(static_cast<std::size_t>(request.size.x) * request.size.y * 4);
-        workers::RenderedFrame frame;
-        frame.view = request.view;
-        frame.tag = request.tag;
-        frame.picture = picture;
-        frame.drawn = true;
-        events.rendered(frame);
-    }
+    void drawLast() { events.rendered(drawn(render.requests.back())); }
     void openView() {
         say(R"({"hello":{"major":1}})");
         say(R"({"openView":{"view":4,"viewport":{"width":8,"height":6},"inputSeq":"1"}})");
         ASSERT_NE(waitFor("viewOpened"), "");
-        ASSERT_EQ(render.requests.size(), 1U);
+        ASSERT_TRUE(render.has(render.requests, 1));
     }
 
     ScriptedRender render;
     ViewRouter router;
     workers::RenderEvents events;
     std::unique_ptr<Catalogue> catalogue;
+    std::unique_ptr<Views> views;
     std::unique_ptr<Shared> shared;
     std::mutex mutex;
     std::condition_variable came;
@@ -134,7 +97,7 @@ TEST_F(SessionTest, ADefaultViewIsOpenedDrawnAndMadeExact) {
     drawLast();
     EXPECT_NE(waitFor(R"("codec":"CODEC_JPEG")"), "");
     EXPECT_NE(waitFor(R"("final":true)"), "");
-    EXPECT_EQ(render.requests.size(), 1U);  // The lossless picture was not drawn again.
+    EXPECT_TRUE(render.has(render.requests, 1));  // The lossless picture was not drawn again.
 }
 
 TEST_F(SessionTest, ALossIsToldAndTheNextPictureEndsIt) {
@@ -155,7 +118,7 @@ TEST_F(SessionTest, AFailedDrawIsToldAndTheNextInputIsDrawn) {
     EXPECT_NE(waitFor("ERROR_CODE_OUT_OF_GPU_MEMORY"), "");
     EXPECT_NE(waitFor("VIEW_STATE_FAILED"), "");
     say(R"({"update":{"view":4,"inputSeq":"2","viewport":{"width":9,"height":9}}})");
-    ASSERT_EQ(render.requests.size(), 2U);
+    ASSERT_TRUE(render.has(render.requests, 2));
     drawLast();
     EXPECT_NE(waitFor("VIEW_STATE_ACTIVE"), "");
 }
@@ -187,16 +150,16 @@ TEST_F(SessionTest, CodeThatFailsGivesTheLastDrawnSceneBack) {
     update(2, "void main() { while (true) {} }");
     const std::string refused = waitFor("while is not allowed");
     EXPECT_NE(refused.find("scene.layers[0].shader.code"), std::string::npos) << refused;
-    EXPECT_EQ(render.requests.size(), 1U) << "refused before any worker sees it";
+    EXPECT_TRUE(render.has(render.requests, 1)) << "refused before any worker sees it";
 
     update(3, "void main() { emitRGB(x); }");
-    ASSERT_EQ(render.requests.size(), 2U);
+    ASSERT_TRUE(render.has(render.requests, 2));
     events.failed(render.requests[1].view, render.requests[1].tag,
                   fail(ErrorCode::kInvalidArgument, "line 1: 'x'", "layers[0].shader.code"));
     const std::string told = waitFor("line 1: 'x'");
     EXPECT_NE(told.find("ERROR_CODE_INVALID_ARGUMENT"), std::string::npos) << told;
     EXPECT_NE(told.find("scene.layers[0].shader.code"), std::string::npos) << told;
-    ASSERT_EQ(render.requests.size(), 3U);
+    ASSERT_TRUE(render.has(render.requests, 3));
     EXPECT_EQ(render.requests[2].scene.layers, good.layers);
     EXPECT_EQ(render.requests[2].scene.camera.eye.x, 5.0) << "seen by the newest camera";
     drawLast();
@@ -209,7 +172,7 @@ TEST_F(SessionTest, ANewViewOfAnOldNumberHearsNothingOfTheOldOne) {
     say(R"({"closeView":{"view":4}})");
     EXPECT_EQ(render.dropped, std::vector<std::uint64_t>{old.view});
     say(R"({"openView":{"view":4,"viewport":{"width":5,"height":5},"inputSeq":"1"}})");
-    ASSERT_EQ(render.requests.size(), 2U);
+    ASSERT_TRUE(render.has(render.requests, 2));
     EXPECT_NE(render.requests[1].view, old.view);
     events.failed(old.view, old.tag, fail(ErrorCode::kIo, "late"));
     drawLast();
@@ -222,7 +185,7 @@ TEST_F(SessionTest, AChangeOfTheViewStopsItsMeasurement) {
     drawLast();
     ASSERT_NE(waitFor("CODEC_JPEG"), "");
     say(R"({"measureAccuracy":{"view":4}})");
-    ASSERT_EQ(render.measures.size(), 1U);
+    ASSERT_TRUE(render.has(render.measures, 1));
     EXPECT_TRUE(render.stopped.empty());
     say(R"({"update":{"view":4,"inputSeq":"2","viewport":{"width":9,"height":9}}})");
     EXPECT_NE(waitFor("the view changed"), "");
@@ -234,11 +197,11 @@ TEST_F(SessionTest, WhatFailsToBeMeasuredIsARowWithTheReasonAndTheNextIsMeasured
     drawLast();
     ASSERT_NE(waitFor("CODEC_JPEG"), "");
     say(R"({"measureAccuracy":{"view":4}})");
-    ASSERT_EQ(render.measures.size(), 1U);
+    ASSERT_TRUE(render.has(render.measures, 1));
     events.measured(render.measures[0].view, render.measures[0].tag,
                     fail(ErrorCode::kTimeout, "missed its deadline of 5 ms"));
     EXPECT_NE(waitFor("missed its deadline of 5 ms"), "");
-    ASSERT_EQ(render.measures.size(), 2U);
+    ASSERT_TRUE(render.has(render.measures, 2));
     EXPECT_NE(render.measures[1].job.candidate, render.measures[0].job.candidate);
     say(R"({"update":{"view":4,"inputSeq":"2","viewport":{"width":9,"height":9}}})");
     drawLast();
@@ -250,9 +213,9 @@ TEST_F(SessionTest, APixelIsPickedOfTheFrameThatIsNamed) {
     drawLast();
     ASSERT_NE(waitFor("CODEC_JPEG"), "");
     say(R"({"update":{"view":4,"inputSeq":"2","viewport":{"width":20,"height":10}}})");
-    ASSERT_EQ(render.requests.size(), 2U);
+    ASSERT_TRUE(render.has(render.requests, 2));
     say(R"({"pick":{"view":4,"inputSeq":"1","x":7,"y":5}})");
-    ASSERT_EQ(render.picks.size(), 1U);
+    ASSERT_TRUE(render.has(render.picks, 1));
     EXPECT_EQ(render.picks[0].job.size, glm::ivec2(8, 6));
     EXPECT_EQ(render.picks[0].job.pixel, glm::ivec2(7, 5));
     EXPECT_EQ(render.picks[0].job.scene, render.requests[0].scene);
@@ -270,7 +233,7 @@ TEST_F(SessionTest, OfSeveralPixelsTheNewestAloneIsAnswered) {
     ASSERT_NE(waitFor("CODEC_JPEG"), "");
     say(R"({"pick":{"view":4,"x":1}})");
     say(R"({"pick":{"view":4,"x":2}})");
-    ASSERT_EQ(render.picks.size(), 2U);
+    ASSERT_TRUE(render.has(render.picks, 2));
     for (const auto& asked : render.picks) {
         events.picked(asked.view, asked.tag, std::optional<scene::Picked>{});
     }
@@ -289,12 +252,12 @@ TEST_F(SessionTest, OnlyTheNewestPicturesCanBePicked) {
         say(R"({"ack":{"view":4,"sequence":)" + std::to_string(input - 1) + "}}");
         say(R"({"update":{"view":4,"inputSeq":")" + std::to_string(input) +
             R"(","viewport":{"width":)" + std::to_string(input) + R"(,"height":9}}})");
-        ASSERT_EQ(render.requests.size(), static_cast<std::size_t>(input));
+        ASSERT_TRUE(render.has(render.requests, static_cast<std::size_t>(input)));
     }
     say(R"({"pick":{"view":4,"inputSeq":"2"}})");
     EXPECT_NE(waitFor("is none of the newest 8 pictures of view 4"), "");
     say(R"({"pick":{"view":4,"inputSeq":"5"}})");
-    EXPECT_EQ(render.picks.size(), 1U);
+    EXPECT_TRUE(render.has(render.picks, 1));
     say(R"({"pick":{"view":4,"inputSeq":"5","x":5}})");
     EXPECT_NE(waitFor("lies outside of a picture of 5 x 9"), "");
 }
@@ -318,6 +281,59 @@ TEST_F(SessionTest, WithoutAHelloTheConnectionEnds) {
     session->tick(Clock::now() + Session::kHelloWithin + std::chrono::seconds{1});
     ASSERT_TRUE(session->closing().has_value());
     EXPECT_EQ(session->closing()->code, 1008);
+}
+
+TEST_F(SessionTest, AClientWithVideoIsSentPatchesAndItsAnswersAreChecked) {
+    say(R"({"hello":{"major":1,"codecs":["CODEC_JPEG","CODEC_PNG","CODEC_VP9"]}})");
+    const std::string welcome = waitFor("welcome");
+    EXPECT_NE(welcome.find("CODEC_WEBP"), std::string::npos) << welcome;
+    const std::string patch = waitFor(R"("patch":true)");
+    EXPECT_NE(patch.find(R"("codec":"CODEC_VP9")"), std::string::npos) << patch;
+    EXPECT_NE(patch.find(R"("keyframe":true)"), std::string::npos) << patch;
+    say(R"({"openView":{"view":4,"viewport":{"width":8,"height":6},"inputSeq":"1"}})");
+    ASSERT_NE(waitFor("viewOpened"), "");
+    say(R"({"setPins":{"view":4,"pins":{"codec":"CODEC_VP9"}}})");
+    EXPECT_NE(waitFor("ERROR_CODE_UNSUPPORTED").find("pins.codec"), std::string::npos)
+        << "it was not tried yet";
+    say(R"({"patchDecoded":{"codec":"CODEC_H264","rgb":"AAAA"}})");
+    EXPECT_NE(waitFor("patch_decoded.codec").find("CODEC_H264"), std::string::npos);
+    // Black, white, red, green, blue, grey, and two more: as they were sent.
+    say(R"({"patchDecoded":{"codec":"CODEC_VP9","rgb":"AAAA/////wAAAP8AAAD/gICAQKBg4IAg"}})");
+    say(R"({"setPins":{"view":4,"pins":{"codec":"CODEC_VP9","quality":80}}})");
+    drawLast();
+    const std::string frame = waitFor(R"("codec":"CODEC_VP9")");
+    EXPECT_NE(frame.find(R"("keyframe":true)"), std::string::npos) << frame;
+    EXPECT_NE(frame.find(R"("quality":80)"), std::string::npos) << frame;
+    say(R"({"patchDecoded":{"codec":"CODEC_VP9","rgb":"AAAA"}})");
+    EXPECT_NE(waitFor("patch_decoded.codec"), "") << "each patch is answered once";
+}
+
+TEST_F(SessionTest, ADecoderWithWrongColoursIsNotUsed) {
+    say(R"({"hello":{"major":1,"codecs":["CODEC_JPEG","CODEC_VP9"]}})");
+    ASSERT_NE(waitFor(R"("patch":true)"), "");
+    say(R"({"openView":{"view":4,"viewport":{"width":8,"height":6},"inputSeq":"1"}})");
+    ASSERT_NE(waitFor("viewOpened"), "");
+    // All black, as a decoder without colours would make it.
+    say(R"({"patchDecoded":{"codec":"CODEC_VP9","rgb":"AAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAA"}})");
+    say(R"({"setPins":{"view":4,"pins":{"codec":"CODEC_VP9"}}})");
+    EXPECT_NE(waitFor("ERROR_CODE_UNSUPPORTED").find("pins.codec"), std::string::npos);
+}
+
+TEST_F(SessionTest, PinsOutOfRangeAreRefusedByName) {
+    openView();
+    for (const auto& [pins, field] :
+         {std::pair{R"("quality":29)", "pins.quality"}, {R"("quality":101)", "pins.quality"},
+          {R"("scale":0.2)", "pins.scale"}, {R"("scale":"NaN")", "pins.scale"},
+          {R"("framesPerS":0)", "pins.frames_per_s"}, {R"("framesPerS":241)", "pins.frames_per_s"},
+          {R"("codec":"CODEC_WEBP")", "pins.codec"}}) {
+        say(std::string{R"({"setPins":{"view":4,"pins":{)"} + pins + "}}}");
+        EXPECT_NE(waitFor(R"("error")").find(field), std::string::npos) << pins;
+    }
+    say(R"({"setPins":{"view":9,"pins":{}}})");
+    EXPECT_NE(waitFor("ERROR_CODE_NOT_FOUND"), "");
+    say(R"({"setPins":{"view":4,"pins":{"quality":30,"scale":0.25}}})");
+    ASSERT_EQ(render.requests.size(), 2U);
+    EXPECT_EQ(render.requests.back().size, glm::ivec2(2, 2)) << "8 x 6 at a quarter, rounded";
 }
 
 }  // namespace

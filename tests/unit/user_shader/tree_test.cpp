@@ -20,7 +20,7 @@ TreeReport check(const std::string& code, ValueType type = ValueType::kF32) {
     const Checked checked = checkText(code);
     if (!checked.complaints.empty()) return {.complaints = checked.complaints};
     const std::vector<shading::TextChunk> texts{
-        {.path = kValuesChunk, .text = valuesText(type)},
+        {.path = kValuesChunk, .text = valuesText(type, true)},
         {.path = kControlsChunk, .text = controlsText(checked.controls, {}, type)},
         {.path = kBodyChunk, .text = checked.body}};
     const shading::ChunkSource files = shading::embeddedChunks();

@@ -1,54 +1,19 @@
 #include "server/video/encoder.h"
 
-#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <memory>
-#include <random>
 #include <string_view>
 
 #include <gtest/gtest.h>
 #include <png.h>
 #include <turbojpeg.h>
+#include <webp/decode.h>
+
+#include "tests/unit/video/pictures.h"
 
 namespace volcast::video {
 namespace {
-
-struct Picture {
-    glm::ivec2 size{0};
-    std::vector<std::byte> rgba;
-    [[nodiscard]] ImageView view() const { return {.size = size, .rgba = rgba}; }
-};
-
-Picture blank(glm::ivec2 size) {
-    return {.size = size,
-            .rgba = std::vector<std::byte>(std::size_t{4} * static_cast<std::size_t>(size.x) *
-                                           static_cast<std::size_t>(size.y))};
-}
-
-/// Smooth shading with one-pixel coloured lines over it: what a rendered mesh looks like.
-Picture drawnPicture(glm::ivec2 size) {
-    Picture picture = blank(size);
-    std::size_t i = 0;
-    for (int y = 0; y < size.y; ++y) {
-        for (int x = 0; x < size.x; ++x) {
-            const double wave = 0.5 + 0.5 * std::sin(x * 0.031) * std::cos(y * 0.027);
-            const bool line = (x + 2 * y) % 97 == 0;
-            picture.rgba[i++] = std::byte(line ? 250 : static_cast<int>(200 * wave));
-            picture.rgba[i++] = std::byte(line ? 40 : static_cast<int>(120 * wave + 30));
-            picture.rgba[i++] = std::byte(line ? 30 : static_cast<int>(255 - 200 * wave));
-            picture.rgba[i++] = std::byte(255);
-        }
-    }
-    return picture;
-}
-
-Picture noise(glm::ivec2 size) {
-    Picture picture = blank(size);
-    std::mt19937 random{7};
-    for (std::byte& value : picture.rgba) value = std::byte(random() & 0xFFU);
-    return picture;
-}
 
 /// Decodes with libpng, which shares no code with the encoder.
 Picture decodePng(std::span<const std::byte> bytes) {
@@ -90,17 +55,17 @@ DecodedJpeg decodeJpeg(std::span<const std::byte> bytes) {
     return decoded;
 }
 
-/// Peak signal to noise over R, G and B, in dB.
-double psnr(const Picture& a, const Picture& b) {
-    double squares = 0.0;
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < a.rgba.size(); ++i) {
-        if (i % 4 == 3) continue;
-        const double difference = std::to_integer<int>(a.rgba[i]) - std::to_integer<int>(b.rgba[i]);
-        squares += difference * difference;
-        ++count;
+/// R, G and B alone.
+std::vector<std::uint8_t> rgbOf(const Picture& picture) {
+    std::vector<std::uint8_t> rgb;
+    for (std::size_t i = 0; i < picture.rgba.size(); ++i) {
+        if (i % 4 != 3) rgb.push_back(std::to_integer<std::uint8_t>(picture.rgba[i]));
     }
-    return 10.0 * std::log10(255.0 * 255.0 * static_cast<double>(count) / squares);
+    return rgb;
+}
+
+double psnr(const Picture& a, const Picture& b) {
+    return psnr(a, rgbOf(b));
 }
 
 TEST(PngEncoder, IsLosslessForEverySizeAndContent) {
@@ -174,6 +139,49 @@ TEST(JpegEncoder, RefusesAQualityThatDoesNotExist) {
     }
 }
 
+Picture decodeWebp(std::span<const std::byte> bytes) {
+    const auto* data = reinterpret_cast<const std::uint8_t*>(bytes.data());
+    Picture picture;
+    EXPECT_NE(WebPGetInfo(data, bytes.size(), &picture.size.x, &picture.size.y), 0);
+    picture = blank(picture.size);
+    EXPECT_NE(
+        WebPDecodeRGBAInto(data, bytes.size(), reinterpret_cast<std::uint8_t*>(picture.rgba.data()),
+                           picture.rgba.size(), picture.size.x * 4),
+        nullptr);
+    return picture;
+}
+
+// Noise has random alpha: the colours of transparent pixels are kept, too.
+TEST(WebpEncoder, IsLosslessForEverySizeAndContent) {
+    for (const glm::ivec2 size : {glm::ivec2{1, 1}, {1, 17}, {31, 1}, {257, 129}, {640, 480}}) {
+        for (const Picture& picture : {noise(size), drawnPicture(size), blank(size)}) {
+            const auto webp = encodeWebp(picture.view());
+            ASSERT_TRUE(webp.has_value()) << webp.error().message;
+            const Picture decoded = decodeWebp(*webp);
+            ASSERT_EQ(decoded.size, size);
+            EXPECT_EQ(decoded.rgba, picture.rgba) << size.x << " x " << size.y;
+        }
+    }
+}
+
+TEST(WebpEncoder, RefusesASideThatTheFormatCannotHold) {
+    const auto webp = encodeWebp(blank({16384, 1}).view());
+    ASSERT_FALSE(webp.has_value());
+    EXPECT_EQ(webp.error().code, ErrorCode::kInvalidArgument);
+    EXPECT_NE(webp.error().message.find("16383"), std::string::npos) << webp.error().message;
+    EXPECT_TRUE(encodeWebp(blank({16383, 1}).view()).has_value());
+}
+
+// Expected values: the algorithm of the xxHash specification (doc/xxhash_spec.md), in Python.
+TEST(PixelHash, IsXxh32WithSeedZero) {
+    Picture picture = blank({1, 1});
+    for (std::size_t i = 0; i < 4; ++i) picture.rgba[i] = static_cast<std::byte>(i + 1);
+    EXPECT_EQ(pixelHash(picture.view()), 0xFE96D19CU);
+    Picture longer = blank({5, 4});
+    for (std::size_t i = 0; i < 80; ++i) longer.rgba[i] = static_cast<std::byte>(i);
+    EXPECT_EQ(pixelHash(longer.view()), 0x24520B4FU);
+}
+
 TEST(Encoders, RefuseASizeThatDisagreesWithTheBytes) {
     const Picture picture = blank({8, 8});
     for (const glm::ivec2 size :
@@ -185,6 +193,9 @@ TEST(Encoders, RefuseASizeThatDisagreesWithTheBytes) {
         const auto jpeg = encodeJpeg(wrong);
         ASSERT_FALSE(jpeg.has_value()) << size.x << " x " << size.y;
         EXPECT_EQ(jpeg.error().code, ErrorCode::kInvalidArgument);
+        const auto webp = encodeWebp(wrong);
+        ASSERT_FALSE(webp.has_value()) << size.x << " x " << size.y;
+        EXPECT_EQ(webp.error().code, ErrorCode::kInvalidArgument);
     }
 }
 

@@ -112,6 +112,65 @@ TEST(ViewQueue, GivenUpViewHasOneTryUntilItSucceeds) {
     EXPECT_TRUE(queue.lost(queue.next()->request, kNow).givenUp.empty());
 }
 
+TEST(ViewQueue, WhatWasGivenUpIsHeldWhereverItIsSeenFrom) {
+    ViewQueue queue;
+    RenderRequest bad = request(1, 1);
+    bad.scene.layers.emplace_back();
+    queue.submit(bad, kNow);
+    queue.lost(queue.next()->request, kNow);
+    EXPECT_FALSE(queue.holds(bad)) << "it has another try";
+    queue.lost(queue.next()->request, kNow);
+    EXPECT_TRUE(queue.holds(bad));
+    bad.scene.camera.eye.x += 1.0;
+    EXPECT_TRUE(queue.holds(bad));
+    EXPECT_FALSE(queue.holds(request(1, 2))) << "another scene";
+    RenderRequest other = bad;
+    other.view = 2;
+    EXPECT_FALSE(queue.holds(other)) << "another view";
+    other = bad;
+    other.size = {7, 7};
+    EXPECT_FALSE(queue.holds(other)) << "another size";
+    queue.forgive();
+    EXPECT_FALSE(queue.holds(bad));
+}
+
+TEST(ViewQueue, OfASceneThatWasDrawnFromElsewhereTheCameraIsHeld) {
+    ViewQueue queue;
+    queue.submit(request(1, 1), kNow);
+    queue.succeeded(queue.next()->request);
+    RenderRequest bad = request(1, 2);
+    bad.scene.camera.eye.x += 1.0;
+    queue.submit(bad, kNow);
+    const auto first = queue.lost(queue.next()->request, kNow);
+    EXPECT_FALSE(first.proven);
+    queue.lost(queue.next()->request, kNow);
+    EXPECT_TRUE(queue.holds(bad));
+    EXPECT_FALSE(queue.holds(request(1, 3)));
+}
+
+TEST(ViewQueue, WhatWasDrawnBeforeIsNotHeldForALaterLoss) {
+    ViewQueue queue;
+    queue.submit(request(1, 1), kNow);
+    queue.succeeded(queue.next()->request);
+    for (int i = 0; i < 2; ++i) {
+        queue.submit(request(1, 1), kNow);
+        EXPECT_TRUE(queue.lost(queue.next()->request, kNow).proven);
+    }
+    EXPECT_FALSE(queue.holds(request(1, 1)));
+}
+
+TEST(ViewQueue, ANewerSceneThatWaitsIsTriedAfterTheOldOneWasGivenUp) {
+    ViewQueue queue;
+    RenderRequest bad = request(1, 1);
+    bad.scene.layers.emplace_back();
+    queue.submit(bad, kNow);
+    queue.lost(queue.next()->request, kNow);
+    const auto inFlight = queue.next()->request;
+    queue.submit(request(1, 2), kNow);
+    EXPECT_EQ(queue.lost(inFlight, kNow).givenUp.size(), 1U);
+    EXPECT_EQ(take(queue), Taken(1, 2));
+}
+
 TEST(ViewQueue, LossWhileIdleBlamesNobody) {
     ViewQueue queue;
     queue.submit(request(1, 1), kNow);

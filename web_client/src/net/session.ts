@@ -3,16 +3,17 @@ import { type AppState, type Edit, notify } from "../state/app_state";
 import type { ViewDocument } from "../state/document";
 import { sentenceOf } from "../state/refusal";
 import { cameraMessage, sceneMessage } from "../state/scene_message";
-import { type CodeOfData, takeDescription } from "../state/shader_actions";
+import { type CodeOfData, removeCode, takeDescription } from "../state/shader_actions";
 import { Connection } from "./connection";
 import { decodeFrame, type Frame, isFrame, kMajor, kMinor } from "./framing";
 import type { Error as ErrorMessage } from "./gen/volcast/v1/error_pb";
-import { Codec } from "./gen/volcast/v1/frame_pb";
+import type { Codec } from "./gen/volcast/v1/frame_pb";
 import type { Scene } from "./gen/volcast/v1/scene_pb";
 import {
   ClientMessageSchema,
   DatasetState,
   type Picked,
+  type PinsSchema,
   type ServerMessage,
   ServerMessageSchema,
   ViewState,
@@ -26,6 +27,8 @@ type Body = NonNullable<MessageInitShape<typeof ClientMessageSchema>["body"]>;
 export interface SessionEvents {
   /** A frame of the view that is shown, or of the one that is about to be. */
   frame(frame: Frame, receivedAt: number): void;
+  /** A colour patch: `patchDecoded` is to be called with what the decoder makes of it. */
+  patch(frame: Frame): void;
   /** The server opened a view with its own default scene. */
   opened(scene: Scene): void;
   /** A view was opened with a document that was not shown before. */
@@ -58,6 +61,7 @@ const kPingMs = 4000;
 
 /** The conversation with the server: one view at a time, opened anew after every loss. */
 export class Session {
+  readonly #codecs: readonly Codec[];
   readonly #state: AppState;
   readonly #events: SessionEvents;
   readonly #connection: Connection;
@@ -75,7 +79,9 @@ export class Session {
   /** The newest settings that were sent, and the Update they went with. */
   #sentEdit: { readonly inputSeq: bigint; readonly edit: Edit } | undefined;
 
-  constructor(url: string, state: AppState, events: SessionEvents) {
+  /** `codecs`: what can be shown. */
+  constructor(url: string, state: AppState, codecs: readonly Codec[], events: SessionEvents) {
+    this.#codecs = codecs;
     this.#state = state;
     this.#events = events;
     this.#connection = new Connection(url, {
@@ -148,10 +154,29 @@ export class Session {
     this.#send({ case: "describeShader", value: { request, ...asked } });
   }
 
-  acknowledge(view: number, sequence: number, holdMs: number, decodeMs: number, queue: number) {
+  /** `keyframe`: this picture of a video could not be decoded. */
+  acknowledge(
+    view: number,
+    sequence: number,
+    holdMs: number,
+    decodeMs: number,
+    queue: number,
+    keyframe = false,
+  ): void {
     const holdUs = Math.round(holdMs * 1000);
     const decodeUs = Math.round(decodeMs * 1000);
-    this.#send({ case: "ack", value: { view, sequence, holdUs, decodeUs, queue } });
+    this.#send({ case: "ack", value: { view, sequence, holdUs, decodeUs, queue, keyframe } });
+  }
+
+  /** Replaces what pacing must not change; undefined members are left to it. */
+  setPins(pins: MessageInitShape<typeof PinsSchema>): void {
+    if (this.#view === undefined) return;
+    this.#send({ case: "setPins", value: { view: this.#view, pins } });
+  }
+
+  /** What the decoder made of a colour patch; `error` says why it made nothing. */
+  patchDecoded(codec: Codec, rgb: Uint8Array<ArrayBuffer>, error: string): void {
+    this.#send({ case: "patchDecoded", value: { codec, rgb, error } });
   }
 
   /** When the input that this frame is the first to show happened. */
@@ -171,7 +196,7 @@ export class Session {
   }
 
   #greet(): void {
-    const codecs = [Codec.JPEG, Codec.PNG];
+    const codecs = [...this.#codecs];
     this.#send({ case: "hello", value: { major: kMajor, minor: kMinor, client: kClient, codecs } });
   }
 
@@ -239,6 +264,10 @@ export class Session {
   }
 
   #frame(frame: Frame, receivedAt: number): void {
+    if (frame.header.patch) {
+      this.#events.patch(frame);
+      return;
+    }
     const { view, sequence } = frame.prefix;
     if (view !== this.#view && view !== this.#opening?.view) {
       this.acknowledge(view, sequence, 0, 0, 0);
@@ -349,7 +378,11 @@ export class Session {
       this.#state.refusal.value = { inputSeq, field, message };
       this.mark("camera"); // Both may have been parts of the refused update.
       this.mark("viewport");
-    } else if (!this.#isListed(error.dataset)) notify(this.#state, "error", text);
+    } else if (!this.#isListed(error.dataset)) {
+      notify(this.#state, "error", text);
+      // Code that drew well has failed later: the view is back at what was there before it.
+      if (error.view === this.#view && /\.shader\./.test(error.field)) removeCode(this.#state);
+    }
   }
 
   /** The newest settings are not drawn; what was drawn before them stays. */

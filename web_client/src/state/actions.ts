@@ -7,6 +7,7 @@ import {
   SceneSchema,
 } from "../net/gen/volcast/v1/scene_pb";
 import { DatasetKind, type FieldInfo } from "../net/gen/volcast/v1/session_pb";
+import { type Apart, joined, takenApart } from "../transfer/apart";
 import { defaultMap } from "../transfer/presets";
 import { type Axis, axisOf, kStraight } from "../transfer/scale";
 import { stretched, type TransferFunction } from "../transfer/transfer_function";
@@ -71,8 +72,8 @@ export function axisOfSlot(state: AppState, slot: Slot = "first"): Axis {
   return field ? axisOf(scale, field.min, field.max) : kStraight;
 }
 
-const asPart = (slot: Slot, { map, density, smooth }: MapEdit): Partial<Edit> =>
-  slot === "first" ? { map, density, smooth } : { second: { map, density, smooth } };
+const asPart = (slot: Slot, { map, density, smooth, apart }: MapEdit): Partial<Edit> =>
+  slot === "first" ? { map, density, smooth, apart } : { second: { map, density, smooth, apart } };
 
 /** Changes a map; changes of one `gesture` are undone together. */
 export function changeMap(
@@ -82,7 +83,30 @@ export function changeMap(
   slot: Slot = "first",
 ): void {
   const edit = mapEditOf(state, slot);
-  if (map !== edit.map) changeEdit(state, asPart(slot, { ...edit, map }), gesture);
+  if (map === edit.map) return;
+  const apart = edit.apart && takenApart(map, axisOfSlot(state, slot));
+  changeEdit(state, asPart(slot, { ...edit, map, apart }), gesture);
+}
+
+/** Edits colours and opacities by points of their own, or together; the picture stays. */
+export function switchApart(state: AppState, on: boolean, slot: Slot = "first"): void {
+  const edit = mapEditOf(state, slot);
+  const apart = on ? takenApart(edit.map, axisOfSlot(state, slot)) : undefined;
+  changeEdit(state, asPart(slot, { ...edit, apart }));
+}
+
+/** Changes the points of one part of a map that is edited apart. */
+export function changeApart(
+  state: AppState,
+  part: Partial<Apart>,
+  gesture?: string,
+  slot: Slot = "first",
+): void {
+  const edit = mapEditOf(state, slot);
+  if (!edit.apart) return;
+  const apart = { ...edit.apart, ...part };
+  const map = joined(apart, axisOfSlot(state, slot));
+  changeEdit(state, asPart(slot, { ...edit, map, apart }), gesture);
 }
 
 export function changeDensity(
@@ -197,9 +221,9 @@ export function currentDocument(state: AppState): ViewDocument | undefined {
   const orbit = state.orbit.value;
   const home = state.home.value;
   const drawn = state.refusal.value ? state.accepted.value : undefined;
-  const { scene, map, density, smooth, second } = drawn ?? state.edit.value.present;
+  const { scene, map, density, smooth, apart, second } = drawn ?? state.edit.value.present;
   if (!scene || !orbit || !home) return undefined;
-  return { scene, orbit, home, edit: { map, density, smooth, second } };
+  return { scene, orbit, home, edit: { map, density, smooth, apart, second } };
 }
 
 export function restoreDocument(state: AppState, document: ViewDocument): void {

@@ -8,6 +8,7 @@ import type {
   ViewState,
   Welcome,
 } from "../net/gen/volcast/v1/session_pb";
+import type { Apart } from "../transfer/apart";
 import { referenceLengthOf } from "../transfer/opacity";
 import type { TransferFunction } from "../transfer/transfer_function";
 import type { Bounds, Orbit } from "../view/camera";
@@ -29,11 +30,15 @@ export interface PictureInfo {
   readonly codec: Codec;
   readonly lossless: boolean;
   readonly final: boolean;
+  /** False: parts of a large volume are coarser than asked for, as long as finer ones are loaded. */
+  readonly ready: boolean;
   readonly integrators: readonly string[];
   readonly workerGeneration: number;
   readonly timings: Timings | undefined;
   readonly bytes: number;
   readonly decodeMs: number;
+  /** Of a lossless picture: the hash of its pixels is the server's; undefined: it cannot be told. */
+  readonly exact?: boolean | undefined;
 }
 
 /** The transfer function as it is edited; what is drawn has its extinction times `density`. */
@@ -42,6 +47,8 @@ export interface MapEdit {
   readonly density: number;
   /** Opacities over this length follow a spline towards the points; absent: straight extinction. */
   readonly smooth?: number | undefined;
+  /** Colours and opacities are edited by points of their own; `map` is both, joined. */
+  readonly apart?: Apart | undefined;
 }
 
 /** The maps of the first layer: of its field, and of its second field where it has one. */

@@ -3,7 +3,7 @@ import { ViewState } from "../net/gen/volcast/v1/session_pb";
 import { createAppState, dismiss, notify, type PictureInfo } from "./app_state";
 import { badgeOf } from "./badge";
 
-const picture = { inputSeq: 5n, lossless: true, final: true } as PictureInfo;
+const picture = { inputSeq: 5n, lossless: true, final: true, ready: true } as PictureInfo;
 
 function connected() {
   const state = createAppState();
@@ -25,6 +25,17 @@ describe("badge", () => {
     expect(badgeOf(state, 0).kind).toBe("live");
     state.picture.value = { ...picture, final: false };
     expect(badgeOf(state, 0).kind).toBe("live");
+    state.picture.value = { ...picture, lossless: false, final: false, ready: false };
+    expect(badgeOf(state, 0)).toMatchObject({ kind: "refining", label: "Loading finer parts" });
+  });
+
+  it("calls a picture exact only when the hash of its pixels was found equal", () => {
+    const state = connected();
+    expect(badgeOf(state, 0)).toMatchObject({ kind: "final", label: "Final, lossless" });
+    state.picture.value = { ...picture, exact: true };
+    expect(badgeOf(state, 0)).toMatchObject({ kind: "final", label: "Final, exact" });
+    state.picture.value = { ...picture, exact: false };
+    expect(badgeOf(state, 0)).toMatchObject({ kind: "failed", label: "Not exact" });
   });
 
   it("says that the settings are not those of the picture, whatever the picture is", () => {

@@ -7,6 +7,7 @@ export type BadgeKind =
   | "waiting"
   | "moving"
   | "live"
+  | "refining"
   | "final"
   | "recovering"
   | "reconnecting"
@@ -21,6 +22,19 @@ export interface Badge {
 }
 
 type Facts = Pick<AppState, "connection" | "view" | "picture" | "newestInput" | "refusal">;
+
+/** `exact`: the hash of the pixels here is that of the pixels in the server. */
+function lossless(exact: boolean | undefined): Badge {
+  if (exact === false) {
+    const detail = "The pixels here are not those that were rendered: their hashes differ";
+    return { kind: "failed", label: "Not exact", detail };
+  }
+  if (exact) {
+    const detail = "Exactly what was rendered: the hash of all pixels was compared";
+    return { kind: "final", label: "Final, exact", detail };
+  }
+  return { kind: "final", label: "Final, lossless", detail: "Lossless: what was rendered" };
+}
 
 /** Reads signals, so that whoever shows it follows them; `now` on performance.now()'s clock. */
 export function badgeOf(state: Facts, now: number): Badge {
@@ -53,7 +67,11 @@ export function badgeOf(state: Facts, now: number): Badge {
     return { kind: "moving", label: "Moving", detail: "A newer picture is on its way" };
   }
   if (picture.lossless && picture.final) {
-    return { kind: "final", label: "Final, exact", detail: "Lossless: exactly what was rendered" };
+    return lossless(picture.exact);
+  }
+  if (!picture.ready) {
+    const detail = "Parts of the volume are coarser than asked for; better pictures follow";
+    return { kind: "refining", label: "Loading finer parts", detail };
   }
   return { kind: "live", label: "Live", detail: "Up to date; the lossless picture follows" };
 }

@@ -35,7 +35,9 @@ function isOrbit(value: unknown): value is Orbit {
 
 const isMap = (value: unknown): value is MapEdit => {
   const m = value as Partial<MapEdit> | null | undefined;
-  return !!m && Array.isArray(m.map) && Number.isFinite(m.density);
+  const { apart } = m ?? {};
+  const parts = !apart || (Array.isArray(apart.colours) && Array.isArray(apart.opacities));
+  return !!m && Array.isArray(m.map) && Number.isFinite(m.density) && parts;
 };
 
 /** Reads what writeDocument wrote; undefined for anything else. */
@@ -48,11 +50,12 @@ export function readDocument(text: string | null): ViewDocument | undefined {
     >;
     if (raw.version !== kVersion || typeof raw.scene !== "string") return undefined;
     if (!isOrbit(raw.orbit) || !isOrbit(raw.home)) return undefined;
-    const { map, density, smooth, second } = raw.edit;
+    const { map, density, smooth, apart, second } = raw.edit;
     if (!isMap(raw.edit) || !(second === undefined || isMap(second))) return undefined;
     const bytes = Uint8Array.from(atob(raw.scene), (c) => c.charCodeAt(0));
     const scene = fromBinary(SceneSchema, bytes);
-    return { scene, orbit: raw.orbit, home: raw.home, edit: { map, density, smooth, second } };
+    const edit = { map, density, smooth, apart, second };
+    return { scene, orbit: raw.orbit, home: raw.home, edit };
   } catch {
     return undefined;
   }

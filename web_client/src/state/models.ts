@@ -242,6 +242,7 @@ export const kRunsCode: ReadonlySet<RayModel> = new Set([
   RayModel.VOLUME,
   RayModel.MIP,
   RayModel.MINIP,
+  RayModel.CROSS_SECTIONS,
 ]);
 
 /** What of a layer cannot stay with another model: the new model's own choices serve it. */

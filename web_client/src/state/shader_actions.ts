@@ -82,8 +82,8 @@ function draw(state: AppState, { code, controls }: DescribedCode): void {
   const before = state.layer.value?.shader?.controls ?? [];
   const kept = before.filter((s) => controls.some((c) => takes(c, s)));
   const shader = create(UserShaderSchema, { code, controls: kept });
-  // Code gives colours as they are seen, and reads channels itself.
-  changeLayer(state, { shader, light: undefined, channels: [] });
+  // Code gives colours as they are seen, reads channels itself, and values as they are stored.
+  changeLayer(state, { shader, light: undefined, channels: [], scale: undefined });
   state.codeDraft.value = undefined;
 }
 

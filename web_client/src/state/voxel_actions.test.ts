@@ -7,14 +7,17 @@ import { createAppState } from "./app_state";
 import { drawTogether } from "./channel_actions";
 import {
   canBeLit,
+  canBeSliced,
   changeLight,
   changeSection,
+  changeSeed,
   chooseStep,
   lightNumbers,
   moveLight,
   placeLight,
   sectionsOf,
   stepKindOf,
+  switchJitter,
   switchLight,
 } from "./voxel_actions";
 
@@ -113,8 +116,29 @@ describe("the distance of samples", () => {
     expect(layer().stepWorld).toBeCloseTo(0.05, 12);
     expect(stepKindOf(layer())).toBe("length");
     chooseStep(state, "count");
-    expect(layer()).toMatchObject({ depthSamples: 256, stepWorld: 0 });
+    expect(layer()).toMatchObject({ depthSamples: 64, stepWorld: 0 });
     chooseStep(state, "usual");
     expect(layer()).toMatchObject({ depthSamples: 0, stepWorld: 0 });
+  });
+});
+
+describe("sampling", () => {
+  it("is jittered by a seed, or not at all", () => {
+    const { state, layer } = opened();
+    switchJitter(state, true);
+    expect(layer().jitter).toBe(1);
+    changeSeed(state, 7.4);
+    expect(layer().jitter).toBe(7);
+    changeSeed(state, -3);
+    expect(layer().jitter).toBe(0);
+    switchJitter(state, false);
+    expect(layer().jitter).toBeUndefined();
+  });
+
+  it("can be by slices where rays gather one channel by its map", () => {
+    const { state, layer } = opened();
+    expect(canBeSliced(layer())).toBe(true);
+    changeLayer(state, { model: RayModel.CROSS_SECTIONS });
+    expect(canBeSliced(layer())).toBe(false);
   });
 });

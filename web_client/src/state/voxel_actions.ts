@@ -126,7 +126,7 @@ export function stepKindOf({ depthSamples, stepWorld }: Layer): StepKind {
   return stepWorld > 0 ? "length" : "usual";
 }
 
-const kUsualSamples = 256;
+const kUsualSamples = 64;
 
 /** Another way to say the distance of samples, with a value to start from. */
 export function chooseStep(state: AppState, kind: StepKind): void {
@@ -140,4 +140,21 @@ export function chooseStep(state: AppState, kind: StepKind): void {
   });
   const stepWorld = kind === "length" && spacings.length > 0 ? Math.min(...spacings) / 2 : 0;
   changeLayer(state, { stepWorld, depthSamples: kind === "count" ? kUsualSamples : 0 });
+}
+
+/** Samples in the middle of their steps, or anywhere in them: by a seed, which tells pictures apart. */
+export function switchJitter(state: AppState, on: boolean): void {
+  changeLayer(state, { jitter: on ? 1 : undefined });
+}
+
+const kMostSeed = 2 ** 32 - 1;
+
+export function changeSeed(state: AppState, seed: number): void {
+  changeLayer(state, { jitter: Math.round(Math.min(kMostSeed, Math.max(0, seed))) });
+}
+
+/** Slices blend what rays gather; code runs where rays march, and so do several channels. */
+export function canBeSliced(layer: Layer): boolean {
+  const opaque = layer.model === RayModel.ISOSURFACE || layer.model === RayModel.CROSS_SECTIONS;
+  return !opaque && layer.channels.length === 0 && !layer.shader?.code;
 }

@@ -38,7 +38,7 @@ export const kOpacityError = 1 / 1024;
 export const kMostOpacity = 1 - 2 ** -24;
 
 /** A point of a piecewise linear function, steps included. */
-interface Knot<Value> {
+export interface Knot<Value> {
   readonly position: number;
   readonly value: Value;
 }
@@ -46,7 +46,11 @@ interface Knot<Value> {
 type Mix<Value> = (a: Value, b: Value, t: number) => Value;
 
 /** Before the step where there is one at `position`. */
-function below<Value>(line: readonly Knot<Value>[], position: number, mix: Mix<Value>): Value {
+export function below<Value>(
+  line: readonly Knot<Value>[],
+  position: number,
+  mix: Mix<Value>,
+): Value {
   const at = line.findIndex((knot) => knot.position >= position);
   const far = line[at < 0 ? line.length - 1 : at] as Knot<Value>;
   const near = line[at - 1];
@@ -55,7 +59,11 @@ function below<Value>(line: readonly Knot<Value>[], position: number, mix: Mix<V
 }
 
 /** After the step where there is one at `position`. */
-function above<Value>(line: readonly Knot<Value>[], position: number, mix: Mix<Value>): Value {
+export function above<Value>(
+  line: readonly Knot<Value>[],
+  position: number,
+  mix: Mix<Value>,
+): Value {
   for (let i = line.length - 1; i >= 0; i -= 1) {
     const knot = line[i];
     if (knot && knot.position === position) return knot.value;

@@ -105,13 +105,14 @@ function Choices({ state }: Props) {
 
 /** What a picture is to be worth. */
 export function AccuracyPanel({ state }: Props) {
-  if (!state.layer.value || !isMesh(state)) return null;
+  const layer = state.layer.value;
+  if (!layer || layer.shader?.code) return null; // Code has one way.
   return (
     <section class="section" aria-labelledby="accuracy-heading">
       <h2 id="accuracy-heading">Accuracy</h2>
       <div class="options">
         <Wish state={state} />
-        <Choices state={state} />
+        {isMesh(state) && <Choices state={state} />}
       </div>
     </section>
   );

@@ -86,6 +86,8 @@ interface SliderProps {
   readonly low: number;
   readonly high: number;
   readonly axis?: Axis | undefined;
+  /** Said instead of the label, where that is too short by itself. */
+  readonly spoken?: string | undefined;
   readonly invalid?: boolean | undefined;
   readonly take: (value: number, gesture?: string) => void;
   readonly done: () => void;
@@ -98,6 +100,7 @@ export function SliderField({
   low,
   high,
   axis = kStraight,
+  spoken = label,
   invalid,
   take,
   done,
@@ -110,7 +113,7 @@ export function SliderField({
       <span aria-hidden="true">{label}</span>
       <input
         type="range"
-        aria-label={label}
+        aria-label={spoken}
         aria-valuetext={text}
         min={0}
         max={1}
@@ -121,7 +124,7 @@ export function SliderField({
       />
       <span class="number">
         <TextInput
-          spoken={`${label}, as a number`}
+          spoken={`${spoken}, as a number`}
           text={text}
           read={parseNumber}
           take={(v) => take(v)}

@@ -1,54 +1,39 @@
-import { type Signal, useSignal, useSignalEffect } from "@preact/signals";
-import { useEffect, useRef } from "preact/hooks";
+import { type Signal, useSignal } from "@preact/signals";
 import {
   axisOfSlot,
-  changeMap,
   drawnMap,
   fieldOf,
   mapEditOf,
   resetMap,
+  switchApart,
   usualRangeOf,
 } from "../state/actions";
 import type { AppState } from "../state/app_state";
+import {
+  canBeApart,
+  changePoints,
+  type MapTarget,
+  pointsOf,
+  targetsOf,
+} from "../state/map_targets";
 import { type Slot, usesColours, usesExtinction } from "../state/models";
-import { withPointAt } from "../transfer/transfer_function";
+import { opacityFromExtinction } from "../transfer/opacity";
+import type { Axis } from "../transfer/scale";
+import { type TransferFunction, withPointAt } from "../transfer/transfer_function";
 import { ScaleOptions } from "./field_picker";
 import { formatNumber, formatValue } from "./format";
 import { IconButton } from "./icons";
+import { Check } from "./inputs";
 import { MapInputs } from "./map_inputs";
-import { drawPlot, type PlotBox, rangeOf, valueAt } from "./map_plot";
+import { kBarGap, kPlotHeight, type PlotBox, type PlotContent, rangeOf, valueAt } from "./map_plot";
 import { MapPoints } from "./map_points";
 import { ColourPresets, DensitySlider, OpacityPresets, SmoothCurve } from "./map_presets";
 import { MapRange } from "./map_range";
+import { PlotCanvas } from "./plot_canvas";
 
 interface Props {
   readonly state: AppState;
   readonly slot: Slot;
-}
-
-/** Follows an element's width and the page's theme, for what is drawn on a canvas. */
-function useCanvasFacts() {
-  const canvas = useRef<HTMLCanvasElement>(null);
-  const width = useSignal(0);
-  const theme = useSignal(0);
-  useEffect(() => {
-    const parent = canvas.current?.parentElement;
-    if (!parent) return undefined;
-    const observer = new ResizeObserver(() => {
-      width.value = parent.clientWidth;
-    });
-    observer.observe(parent);
-    const dark = matchMedia("(prefers-color-scheme: dark)");
-    const turned = (): void => {
-      theme.value += 1;
-    };
-    dark.addEventListener("change", turned);
-    return () => {
-      observer.disconnect();
-      dark.removeEventListener("change", turned);
-    };
-  }, []);
-  return { canvas, width, theme };
 }
 
 function Hint({ state, slot }: Props) {
@@ -76,67 +61,77 @@ function boxOf(state: AppState, slot: Slot, width: number): PlotBox {
   return { width, axis, ...rangeOf(map, low, high, axis) };
 }
 
-function Plot({ state, slot, selected }: Props & { readonly selected: Signal<number> }) {
-  const { canvas, width, theme } = useCanvasFacts();
-  const field = fieldOf(state, slot);
-  const { map } = mapEditOf(state, slot);
-  const box = boxOf(state, slot, width.value);
-  const showsOpacity = usesExtinction(state.layer.value, slot);
+type Selection = Readonly<Record<MapTarget["part"], Signal<number>>>;
 
-  useSignalEffect(() => {
-    const element = canvas.current;
-    theme.value;
-    if (!element || width.value === 0) return;
+interface EditorProps extends Props {
+  readonly selected: Selection;
+}
+
+/** Adds a point with the map's own value, and selects it. */
+function addPoint(
+  { state, slot, selected }: EditorProps,
+  part: MapTarget["part"],
+  value: number,
+): void {
+  const { along } = axisOfSlot(state, slot);
+  const next = withPointAt(pointsOf(state, slot, part), value, along);
+  changePoints(state, slot, part, next.map);
+  selected[part].value = next.index;
+}
+
+function Plot(props: EditorProps) {
+  const { state, slot, selected } = props;
+  const field = fieldOf(state, slot);
+  const targets = targetsOf(state, slot);
+  const ends = boxOf(state, slot, 0);
+  const content = (width: number): PlotContent => {
     const now = fieldOf(state, slot);
-    const shown = boxOf(state, slot, width.value);
-    const content = {
-      box: shown,
+    const box = boxOf(state, slot, width);
+    const length = state.referenceLength.value;
+    return {
+      box,
       map: drawnMap(state, slot),
-      referenceLength: state.referenceLength.value,
+      opacityOf: (extinction) => opacityFromExtinction(extinction, length),
       histogram: now?.histogram ?? [],
-      histogramRange: now ? usualRangeOf(now) : { min: shown.low, max: shown.high },
+      histogramRange: now ? usualRangeOf(now) : { min: box.low, max: box.high },
       showsOpacity: usesExtinction(state.layer.value, slot),
       showsColours: usesColours(state.layer.value, slot),
     };
-    drawPlot(element, content, window.devicePixelRatio);
-  });
-
-  const add = (event: MouseEvent): void => {
-    const at = event.currentTarget as HTMLElement;
-    const value = valueAt(box, event.clientX - at.getBoundingClientRect().left);
-    const next = withPointAt(map, value, box.axis.along);
-    changeMap(state, next.map, undefined, slot);
-    selected.value = next.index;
   };
-
+  // Apart, a click beside the curve is about opacity, one on the bar about colour.
+  const add = (x: number, y: number, width: number): void => {
+    const onBar = y > kPlotHeight + kBarGap / 2;
+    const target = targets.find((t) => t.part === (onBar ? "colours" : "opacities")) ?? targets[0];
+    if (target) addPoint(props, target.part, valueAt(boxOf(state, slot, width), x));
+  };
   return (
     <div class="map-plot">
-      {/* biome-ignore lint/a11y/noStaticElementInteractions: the add button is the keyboard's way */}
-      <div class="map-ground" onDblClick={add}>
-        <canvas ref={canvas} />
-        {width.value > 0 && (
-          <MapPoints
-            state={state}
-            slot={slot}
-            box={box}
-            selected={selected}
-            showsOpacity={showsOpacity}
-          />
-        )}
-      </div>
+      <PlotCanvas content={content} add={add}>
+        {(width) =>
+          targets.map((target) => (
+            <MapPoints
+              key={target.part}
+              state={state}
+              slot={slot}
+              box={boxOf(state, slot, width)}
+              target={target}
+              selected={selected[target.part]}
+            />
+          ))
+        }
+      </PlotCanvas>
       <div class="map-scale">
-        <span>{formatValue(box.low, box.high - box.low)}</span>
+        <span>{formatValue(ends.low, ends.high - ends.low)}</span>
         <span>{field?.unit ?? ""}</span>
-        <span>{formatValue(box.high, box.high - box.low)}</span>
+        <span>{formatValue(ends.high, ends.high - ends.low)}</span>
       </div>
     </div>
   );
 }
 
 /** Where the gap after the selected point, or else the widest one, has its middle. */
-function placeForNewPoint(state: AppState, slot: Slot, selected: number): number | undefined {
-  const { map } = mapEditOf(state, slot);
-  const { along, back } = axisOfSlot(state, slot);
+function placeForNewPoint(map: TransferFunction, axis: Axis, selected: number): number | undefined {
+  const { along, back } = axis;
   const place = (i: number): number => along(map[i]?.value ?? 0);
   const gap = (i: number): number => place(i + 1) - place(i);
   const gaps = map.slice(0, -1).map((_, i) => i);
@@ -152,18 +147,27 @@ function headingOf(colours: boolean, opacity: boolean): string {
 }
 
 /** Adds a point, starts over. */
-function Tools({ state, slot, selected }: Props & { readonly selected: Signal<number> }) {
-  const add = (): void => {
-    const value = placeForNewPoint(state, slot, selected.value);
-    if (value === undefined) return;
-    const { along } = axisOfSlot(state, slot);
-    const next = withPointAt(mapEditOf(state, slot).map, value, along);
-    changeMap(state, next.map, undefined, slot);
-    selected.value = next.index;
+function Tools(props: EditorProps) {
+  const { state, slot, selected } = props;
+  const add = (part: MapTarget["part"]): void => {
+    const points = pointsOf(state, slot, part);
+    const value = placeForNewPoint(points, axisOfSlot(state, slot), selected[part].value);
+    if (value !== undefined) addPoint(props, part, value);
   };
   return (
     <>
-      <IconButton icon="add" label="Add a point" onClick={add} />
+      {targetsOf(state, slot).map(({ part, name }) => (
+        <IconButton
+          key={part}
+          icon="add"
+          label={
+            part === "map"
+              ? "Add a point"
+              : `Add ${part === "colours" ? "a" : "an"} ${name.toLowerCase()}`
+          }
+          onClick={() => add(part)}
+        />
+      ))}
       <IconButton icon="reset" label="Start over" onClick={() => resetMap(state, slot)} />
     </>
   );
@@ -171,7 +175,7 @@ function Tools({ state, slot, selected }: Props & { readonly selected: Signal<nu
 
 /** Colours and extinction over a field's histogram, one map for both. */
 export function MapEditor({ state, slot }: Props) {
-  const selected = useSignal(0);
+  const selected = { map: useSignal(0), colours: useSignal(0), opacities: useSignal(0) };
   const layer = state.layer.value;
   if (!layer || mapEditOf(state, slot).map.length === 0) return null;
   if (layer.channels.length > 0) return null; // Each has a map of its own.
@@ -192,13 +196,23 @@ export function MapEditor({ state, slot }: Props) {
         </div>
       )}
       <Plot state={state} slot={slot} selected={selected} />
-      <MapInputs
-        state={state}
-        slot={slot}
-        selected={selected}
-        showsColours={showsColours}
-        showsOpacity={showsOpacity}
-      />
+      {targetsOf(state, slot).map((target) => (
+        <MapInputs
+          key={target.part}
+          state={state}
+          slot={slot}
+          target={target}
+          selected={selected[target.part]}
+        />
+      ))}
+      {canBeApart(state, slot) && (
+        <Check
+          checked={mapEditOf(state, slot).apart !== undefined}
+          take={(on) => switchApart(state, on, slot)}
+        >
+          Colour and opacity have points of their own
+        </Check>
+      )}
       <MapRange state={state} slot={slot} />
       {showsColours && <ColourPresets state={state} slot={slot} />}
       {showsOpacity && <OpacityPresets state={state} slot={slot} />}

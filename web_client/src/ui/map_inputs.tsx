@@ -1,6 +1,7 @@
 import type { Signal } from "@preact/signals";
-import { changeMap, endGesture, mapEditOf } from "../state/actions";
+import { endGesture, mapEditOf } from "../state/actions";
 import type { AppState } from "../state/app_state";
+import { changePoints, type MapTarget } from "../state/map_targets";
 import type { Slot } from "../state/models";
 import { opacityFromExtinction } from "../transfer/opacity";
 import { fromHex, toHex } from "../transfer/srgb";
@@ -13,14 +14,14 @@ import { deletePoint, extinctionFor } from "./map_points";
 interface Props {
   readonly state: AppState;
   readonly slot: Slot;
+  readonly target: MapTarget;
   readonly selected: Signal<number>;
-  readonly showsColours: boolean;
-  readonly showsOpacity: boolean;
 }
 
 /** The selected point in numbers: value, opacity, extinction and colour. */
-export function MapInputs({ state, slot, selected, showsColours, showsOpacity }: Props) {
-  const { map, density } = mapEditOf(state, slot);
+export function MapInputs({ state, slot, target, selected }: Props) {
+  const { density } = mapEditOf(state, slot);
+  const { part, name, points: map, showsColours, showsOpacity } = target;
   const index = Math.min(selected.value, map.length - 1);
   const point = map[index];
   if (!point) return null;
@@ -28,11 +29,11 @@ export function MapInputs({ state, slot, selected, showsColours, showsOpacity }:
   const opacity = opacityFromExtinction(drawn, state.referenceLength.value);
   const span = (map[map.length - 1]?.value ?? 0) - (map[0]?.value ?? 0);
   const move = (value: number, extinction: number): void =>
-    changeMap(state, withMovedPoint(map, index, value, extinction), undefined, slot);
+    changePoints(state, slot, part, withMovedPoint(map, index, value, extinction));
   return (
     <fieldset class="point-fields">
       <legend>
-        Point {index + 1} of {map.length}
+        {name} {index + 1} of {map.length}
       </legend>
       {showsColours && (
         <label class="number colour">
@@ -42,8 +43,8 @@ export function MapInputs({ state, slot, selected, showsColours, showsOpacity }:
             value={toHex(point.colour)}
             onInput={(e) => {
               const colour = fromHex(e.currentTarget.value);
-              const gesture = `colour ${slot} ${index}`;
-              if (colour) changeMap(state, withColour(map, index, colour), gesture, slot);
+              const gesture = `colour ${slot} ${part} ${index}`;
+              if (colour) changePoints(state, slot, part, withColour(map, index, colour), gesture);
             }}
             onChange={() => endGesture(state)}
           />
@@ -73,7 +74,7 @@ export function MapInputs({ state, slot, selected, showsColours, showsOpacity }:
         icon="remove"
         label="Delete the point"
         disabled={isEnd(map, index)}
-        onClick={() => deletePoint(state, slot, selected, index)}
+        onClick={() => deletePoint(state, slot, part, selected, index)}
       />
     </fieldset>
   );

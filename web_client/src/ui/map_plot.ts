@@ -1,4 +1,3 @@
-import { opacityFromExtinction } from "../transfer/opacity";
 import { type Axis, kStraight } from "../transfer/scale";
 import { toHex } from "../transfer/srgb";
 import { sampleAt, type TransferFunction } from "../transfer/transfer_function";
@@ -62,7 +61,8 @@ export interface PlotContent {
   readonly box: PlotBox;
   /** With the density that is drawn. */
   readonly map: TransferFunction;
-  readonly referenceLength: number;
+  /** What is drawn of a point's extinction, from 0 to 1. */
+  readonly opacityOf: (extinction: number) => number;
   readonly histogram: readonly number[];
   readonly histogramRange: { readonly min: number; readonly max: number };
   readonly showsOpacity: boolean;
@@ -108,14 +108,14 @@ function drawMap(
   scale: number,
   ink: string,
 ): void {
-  const { box, map, referenceLength, showsOpacity, showsColours } = content;
+  const { box, map, opacityOf, showsOpacity, showsColours } = content;
   const step = 1 / scale;
   for (let x = kPadX; x < box.width - kPadX; x += step) {
     const here = sampleAt(map, valueAt(box, x + step / 2), box.axis.along);
     context.fillStyle = showsColours ? toHex(here.colour) : ink;
     context.fillRect(x, kPlotHeight + kBarGap, step, kBarHeight);
     if (!showsOpacity) continue;
-    const top = yOf(opacityFromExtinction(here.extinction, referenceLength));
+    const top = yOf(opacityOf(here.extinction));
     context.globalAlpha = 0.5;
     context.fillRect(x, top, step, kPlotHeight - top);
     context.globalAlpha = 1;
@@ -123,13 +123,13 @@ function drawMap(
 }
 
 function drawCurve(context: CanvasRenderingContext2D, content: PlotContent, ink: string): void {
-  const { box, map, referenceLength } = content;
+  const { box, map, opacityOf } = content;
   context.strokeStyle = ink;
   context.lineWidth = 1.5;
   context.lineJoin = "round";
   context.beginPath();
   const lineTo = (x: number, extinction: number): void =>
-    context.lineTo(x, yOf(opacityFromExtinction(extinction, referenceLength)));
+    context.lineTo(x, yOf(opacityOf(extinction)));
   lineTo(kPadX, sampleAt(map, box.low).extinction);
   map.forEach((point, i) => {
     const before = map[i - 1];

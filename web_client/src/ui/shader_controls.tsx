@@ -1,5 +1,5 @@
 import { create } from "@bufbuild/protobuf";
-import { InvlerpStateSchema, RangeSchema } from "../net/gen/volcast/v1/scene_pb";
+import { type InvlerpState, InvlerpStateSchema, RangeSchema } from "../net/gen/volcast/v1/scene_pb";
 import type { ShaderControl } from "../net/gen/volcast/v1/session_pb";
 import { endGesture } from "../state/actions";
 import type { AppState } from "../state/app_state";
@@ -12,6 +12,7 @@ import {
 } from "../state/shader_actions";
 import { formatNumber } from "./format";
 import { Check, ColourLine, NumberField, SelectLine, SliderField } from "./inputs";
+import { ShaderMap } from "./shader_map";
 
 interface Props {
   readonly state: AppState;
@@ -63,30 +64,60 @@ function Select({ state, name, control, kind }: ControlProps<"select">) {
   );
 }
 
-/** Two values, from 0 to 1; from a high one to a low one it is turned round. */
+/** Two values, from 0 to 1, in a window; from a high one to a low one it is turned round. */
 function Invlerp({ state, name, control, kind }: ControlProps<"invlerp">) {
   const now = controlValue(state, control);
   const set = now.case === "invlerp" ? now.value : create(InvlerpStateSchema);
-  const range = set.range ?? kind.range ?? create(RangeSchema, { min: 0, max: 1 });
-  const take = (part: { min?: number; max?: number }): void => {
-    const next = create(RangeSchema, { ...range, ...part });
-    if (next.min === next.max) return;
-    const value = create(InvlerpStateSchema, { ...set, range: next });
-    changeControl(state, name, { case: "invlerp", value });
+  const unit = { min: 0, max: 1 };
+  const range = set.range ?? kind.range ?? create(RangeSchema, unit);
+  const window = set.window ?? kind.window ?? create(RangeSchema, unit);
+  const change = (part: Partial<InvlerpState>, gesture?: string): void => {
+    const value = create(InvlerpStateSchema, { ...set, ...part });
+    changeControl(state, name, { case: "invlerp", value }, gesture);
   };
+  const take = (part: { min?: number; max?: number }, gesture?: string): void => {
+    const next = create(RangeSchema, { ...range, ...part });
+    if (next.min !== next.max) change({ range: next }, gesture);
+  };
+  const show = (part: { min?: number; max?: number }): void => {
+    const next = create(RangeSchema, { ...window, ...part });
+    if (next.min < next.max) change({ window: next });
+  };
+  const ends = [
+    ["0 at", range.min, (min: number, gesture?: string) => take({ min }, gesture)],
+    ["1 at", range.max, (max: number, gesture?: string) => take({ max }, gesture)],
+  ] as const;
   return (
-    <div class="fields">
-      <NumberField
-        label={`${name}, 0 at`}
-        text={formatNumber(range.min)}
-        take={(min) => take({ min })}
-      />
-      <NumberField
-        label={`${name}, 1 at`}
-        text={formatNumber(range.max)}
-        take={(max) => take({ max })}
-      />
-    </div>
+    <fieldset class="shader-range">
+      <legend>{name}</legend>
+      {ends.map(([label, value, set]) => (
+        <SliderField
+          key={label}
+          label={label}
+          spoken={`${name}, ${label}`}
+          value={value}
+          low={window.min}
+          high={window.max}
+          take={(next, gesture) => set(next, gesture && `${name} ${label}`)}
+          done={() => endGesture(state)}
+        />
+      ))}
+      <div class="fields">
+        <NumberField
+          label="Window from"
+          text={formatNumber(window.min)}
+          take={(min) => show({ min })}
+        />
+        <NumberField
+          label="Window to"
+          text={formatNumber(window.max)}
+          take={(max) => show({ max })}
+        />
+      </div>
+      <p class="hint">
+        {kind.clamp ? "Values beyond both ends count as the ends." : "Goes on beyond both ends."}
+      </p>
+    </fieldset>
   );
 }
 
@@ -122,7 +153,7 @@ function Control({ state, control }: Props & { readonly control: ShaderControl }
         </Check>
       );
     case "transferFunction":
-      return <p class="hint">{name} is drawn as its code declares it.</p>;
+      return <ShaderMap state={state} control={control} kind={kind.value} />;
     default:
       return null;
   }

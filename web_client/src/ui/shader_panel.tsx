@@ -5,6 +5,7 @@ import { isRefused } from "../state/refusal";
 import { applyCode, complaintsOf, removeCode, shownCode } from "../state/shader_actions";
 import { isVolume } from "../state/voxel_actions";
 import { ShaderControls } from "./shader_controls";
+import { StepOptions } from "./voxel_panel";
 
 interface Props {
   readonly state: AppState;
@@ -52,13 +53,18 @@ function Complaints({ state, id }: Props & { readonly id: string }) {
 export function ShaderPanel({ state }: Props) {
   const id = useId();
   const layer = state.layer.value;
-  if (!layer || !isVolume(state) || !kRunsCode.has(layer.model)) return null;
+  if (!layer || !kRunsCode.has(layer.model)) return null;
   const isDrawn = Boolean(layer.shader?.code);
   const isWrong = complaintsOf(state).length > 0 || isRefused(state, "shader");
   return (
     <section class="section" aria-labelledby="shader-heading">
       <h2 id="shader-heading">Shader</h2>
       {isDrawn && <ShaderControls state={state} />}
+      {isDrawn && !isVolume(state) && (
+        <div class="options">
+          <StepOptions state={state} usual="A 64th of the diagonal" />
+        </div>
+      )}
       <details class="advanced">
         <summary>Code</summary>
         <div class="options">

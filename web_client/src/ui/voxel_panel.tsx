@@ -1,17 +1,20 @@
-import { Integrator, RayModel, Sampling } from "../net/gen/volcast/v1/scene_pb";
+import { Integrator, RayModel, Sampling, VoxelEvaluator } from "../net/gen/volcast/v1/scene_pb";
 import { changeLayer, endGesture } from "../state/actions";
 import type { AppState } from "../state/app_state";
 import { kIntegratorLabels, voxelIntegratorsOf } from "../state/models";
 import { isRefused } from "../state/refusal";
 import {
+  canBeSliced,
+  changeSeed,
   chooseStep,
   isAbsorbing,
   isVolume,
   type StepKind,
   stepKindOf,
+  switchJitter,
 } from "../state/voxel_actions";
 import { formatNumber } from "./format";
-import { NumberLine, SelectLine, SliderField } from "./inputs";
+import { Check, NumberLine, SelectLine, SliderField } from "./inputs";
 import { LightOptions } from "./light_options";
 
 interface Props {
@@ -24,17 +27,18 @@ const kSteps: readonly (readonly [StepKind, string])[] = [
   ["count", "By their number"],
 ];
 
-/** How far apart a ray's samples are. */
-function StepOptions({ state }: Props) {
+/** How far apart a ray's samples are; `usual`: how the server chooses by itself. */
+export function StepOptions({ state, usual }: Props & { readonly usual?: string }) {
   const layer = state.layer.value;
   if (!layer) return null;
   const kind = stepKindOf(layer);
+  const options = kSteps.map(([k, text]) => [k, (k === "usual" && usual) || text] as const);
   return (
     <>
       <SelectLine
         label="Samples"
         value={kind}
-        options={kSteps}
+        options={options}
         invalid={isRefused(state, "step_world") || isRefused(state, "depth_samples")}
         take={(next) => chooseStep(state, next)}
       />
@@ -71,12 +75,56 @@ function IntegratorOption({ state }: Props) {
       label="Integrator"
       value={layer.integrator}
       options={[
-        [Integrator.AUTO, "Automatic"],
+        [Integrator.AUTO, kIntegratorLabels[Integrator.AUTO]],
         ...integrators.map((i) => [i, kIntegratorLabels[i]] as const),
       ]}
       invalid={isRefused(state, "integrator")}
       take={(integrator) => changeLayer(state, { integrator })}
     />
+  );
+}
+
+const kEvaluators: readonly (readonly [VoxelEvaluator, string])[] = [
+  [VoxelEvaluator.AUTO, "Whatever is faster"],
+  [VoxelEvaluator.MARCH, "Rays that march"],
+  [VoxelEvaluator.SLICES, "Slices across the view"],
+  [VoxelEvaluator.SLICE_INSTANCES, "Slices, as instances"],
+];
+
+/** What brings rays and voxels together. */
+function EvaluatorOption({ state }: Props) {
+  const layer = state.layer.value;
+  if (!layer || !canBeSliced(layer)) return null;
+  return (
+    <SelectLine
+      label="Drawn by"
+      value={layer.voxelEvaluator}
+      options={kEvaluators}
+      invalid={isRefused(state, "voxel_evaluator")}
+      take={(voxelEvaluator) => changeLayer(state, { voxelEvaluator })}
+    />
+  );
+}
+
+/** Where samples lie in their steps; code has them in the middle. */
+function JitterOptions({ state }: Props) {
+  const layer = state.layer.value;
+  if (!layer || layer.shader?.code) return null;
+  const seed = layer.jitter;
+  return (
+    <>
+      <Check checked={seed !== undefined} take={(on) => switchJitter(state, on)}>
+        Jitter: noise instead of bands
+      </Check>
+      {seed !== undefined && (
+        <NumberLine
+          label="Seed"
+          text={String(seed)}
+          invalid={isRefused(state, "jitter")}
+          take={(next) => changeSeed(state, next)}
+        />
+      )}
+    </>
   );
 }
 
@@ -98,7 +146,13 @@ export function VoxelPanel({ state }: Props) {
           ]}
           take={(sampling) => changeLayer(state, { sampling })}
         />
-        {layer.model !== RayModel.CROSS_SECTIONS && <StepOptions state={state} />}
+        {layer.model !== RayModel.CROSS_SECTIONS && (
+          <>
+            <EvaluatorOption state={state} />
+            <StepOptions state={state} />
+            <JitterOptions state={state} />
+          </>
+        )}
         <IntegratorOption state={state} />
         {isAbsorbing(layer) && (
           <SliderField

@@ -1,6 +1,6 @@
-import type { Codec } from "../net/gen/volcast/v1/frame_pb";
+import type { EncodedPicture } from "./worker_messages";
 
-/** Turns one encoded picture into pixels; the caller closes the bitmap. Rejects on a bad picture. */
+/** Turns one encoded picture into pixels; the caller closes them. Rejects on a bad picture. */
 export interface Decoder {
-  decode(payload: Uint8Array<ArrayBuffer>, codec: Codec): Promise<ImageBitmap>;
+  decode(picture: EncodedPicture): Promise<ImageBitmap | VideoFrame>;
 }

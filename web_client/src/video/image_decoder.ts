@@ -1,15 +1,27 @@
 import { Codec } from "../net/gen/volcast/v1/frame_pb";
 import type { Decoder } from "./decoder";
+import type { EncodedPicture } from "./worker_messages";
 
-export function mediaType(codec: Codec): string {
-  return codec === Codec.PNG ? "image/png" : "image/jpeg";
+/** Of a picture that is a file by itself; undefined for pictures of a video. */
+export function mediaType(codec: Codec): string | undefined {
+  switch (codec) {
+    case Codec.JPEG:
+      return "image/jpeg";
+    case Codec.PNG:
+      return "image/png";
+    case Codec.WEBP:
+      return "image/webp";
+    default:
+      return undefined;
+  }
 }
 
-/** JPEG and PNG by the browser's own decoders; no step that would change a colour. */
+/** JPEG, PNG and WebP by the browser's own decoders; no step that would change a colour. */
 export class ImageDecoder implements Decoder {
-  decode(payload: Uint8Array<ArrayBuffer>, codec: Codec): Promise<ImageBitmap> {
-    const picture = new Blob([payload], { type: mediaType(codec) });
-    return createImageBitmap(picture, {
+  async decode({ payload, codec }: EncodedPicture): Promise<ImageBitmap> {
+    const type = mediaType(codec);
+    if (!type) throw new Error(`codec ${codec} is not known`);
+    return createImageBitmap(new Blob([payload], { type }), {
       colorSpaceConversion: "none",
       premultiplyAlpha: "none",
       imageOrientation: "from-image",

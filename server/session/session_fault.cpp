@@ -1,0 +1,26 @@
+// What a session lets fail, where its server allows that.
+#include <spdlog/spdlog.h>
+
+#include "server/session/session.h"
+
+namespace volcast::session {
+
+void Session::injectFault(const v1::InjectFault& message) {
+    const ErrorContext about{.view = message.view()};
+    if (shared_.faults == nullptr) {
+        return send(errorMessage(v1::ERROR_CODE_NOT_PERMITTED,
+                                 "this server was not started with --allow-faults", about));
+    }
+    const Seat* seat = findOrRefuse(message.view(), 0);
+    if (seat == nullptr) return;
+    const auto fault = worker::parseFault(message.fault());
+    if (!fault) {
+        return send(
+            errorMessage(v1::ERROR_CODE_INVALID_ARGUMENT, fault.error().message, about, "fault"));
+    }
+    spdlog::warn("event=fault connection={} view={} fault={}", number_, seat->view->id(),
+                 worker::toText(*fault));
+    shared_.faults->inject(seat->view->global(), *fault);
+}
+
+}  // namespace volcast::session

@@ -1,0 +1,90 @@
+import type { Browser } from "playwright-core";
+import { afterAll, beforeAll, describe, expect, it } from "vitest";
+import { Client, launch } from "./support/client";
+import { difference, hashOf } from "./support/pixels";
+import { Server } from "./support/server";
+
+let server: Server;
+let browser: Browser;
+let client: Client;
+
+beforeAll(async () => {
+  server = await Server.start();
+  browser = await launch();
+  client = await Client.open(browser, server.url, { viewport: { width: 1000, height: 900 } });
+  const row = client.page.locator('.dataset[data-dataset="demo:volume"]');
+  if ((await row.getAttribute("data-shown")) === null) {
+    await client.after(() => row.locator(".dataset-choose").click());
+  }
+  await client.after(() =>
+    client.page.getByRole("radio", { name: /^Volume/ }).check({ force: true }),
+  );
+});
+
+afterAll(async () => {
+  await browser?.close();
+  await server?.stop();
+});
+
+const picture = async (): Promise<string> => hashOf(await client.pixels());
+const points = (kind: "Colour" | "Opacity") =>
+  client.page.getByRole("button", { name: new RegExp(`^${kind} point \\d`) });
+const apart = () =>
+  client.page.getByRole("checkbox", { name: "Colour and opacity have points of their own" });
+
+async function drag(kind: "Colour" | "Opacity", index: number, dx: number, dy: number) {
+  const box = await points(kind).nth(index).boundingBox();
+  if (!box) throw new Error("the point has no box");
+  await client.page.mouse.move(box.x + 12, box.y + 12);
+  await client.page.mouse.down();
+  await client.page.mouse.move(box.x + 12 + dx, box.y + 12 + dy, { steps: 4 });
+  await client.page.mouse.up();
+}
+
+describe("a map whose colours and opacities are edited apart", () => {
+  it("has points of each kind, whatever the other has, and shows both", async () => {
+    const before = await client.pixels();
+    await client.after(() => apart().check());
+    expect(difference(before, await client.pixels()).largest).toBe(0);
+    const colours = await points("Colour").count();
+    const opacities = await points("Opacity").count();
+    expect(colours).not.toBe(opacities);
+
+    const ground = await client.page.locator(".map-ground").boundingBox();
+    if (!ground) throw new Error("the editor has no ground");
+    const add = (y: number) =>
+      client.after(() => client.page.mouse.dblclick(ground.x + 0.37 * ground.width, ground.y + y));
+    await add(ground.height - 6);
+    expect(await points("Colour").count()).toBe(colours + 1);
+    expect(await points("Opacity").count()).toBe(opacities);
+    await add(6);
+    expect(await points("Opacity").count()).toBe(opacities + 1);
+    expect(difference(before, await client.pixels()).largest).toBeLessThanOrEqual(1);
+
+    const seen = new Set([await picture()]);
+    await client.after(() => drag("Opacity", 1, 10, -50));
+    seen.add(await picture());
+    const place = await points("Colour").nth(1).boundingBox();
+    await client.after(() => drag("Opacity", 1, 10, 10));
+    expect(await points("Colour").nth(1).boundingBox(), "colours stay").toEqual(place);
+    await client.after(() => points("Colour").nth(1).press("ArrowRight"));
+    seen.add(await picture());
+    await client.after(() => client.page.getByLabel("Colour", { exact: true }).fill("#ff0000"));
+    seen.add(await picture());
+    expect(seen.size).toBe(4);
+    expect(client.complaints).toEqual([]);
+  });
+
+  it("stays apart over a reload, and is one map again with the same picture", async () => {
+    const before = await picture();
+    const colours = await points("Colour").count();
+    await client.page.reload();
+    await client.settled();
+    expect(await points("Colour").count()).toBe(colours);
+    expect(await picture()).toBe(before);
+    await client.after(() => apart().uncheck());
+    expect(await points("Colour").count()).toBe(0);
+    expect(await picture()).toBe(before);
+    expect(client.complaints).toEqual([]);
+  });
+});

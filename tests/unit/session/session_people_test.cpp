@@ -1,0 +1,382 @@
+// Several people in one view: links, roles, who steers, undo, coming back.
+#include <thread>
+
+#include "tests/support/temporary_folder.h"
+#include "tests/unit/session/scripted_render.h"
+#include "tests/unit/session/session_client.h"
+
+namespace volcast::session {
+namespace {
+
+using test::importCube;
+using test::ScriptedRender;
+using test::SessionClient;
+
+/// A server without sockets.
+struct TestServer {
+    explicit TestServer(const LinkKey& key, std::chrono::seconds keep = std::chrono::seconds{60},
+                        std::unique_ptr<StateFolder> state = {}) {
+        CatalogueDesc desc;
+        desc.importer = importCube;
+        catalogue = *Catalogue::create(std::move(desc), render);
+        const std::string id = catalogue->list().datasets(0).id();
+        EXPECT_TRUE(catalogue->require(id).has_value());
+        while (!catalogue->standing(id).loaded) std::this_thread::yield();
+        views = std::make_unique<Views>(ViewsDesc{.parts = {.render = render,
+                                                            .catalogue = *catalogue,
+                                                            .router = router,
+                                                            .encoders = encoders,
+                                                            .maxPeople = 4},
+                                                  .key = key,
+                                                  .keep = keep,
+                                                  .maxViews = 3,
+                                                  .state = std::move(state)});
+        shared = std::make_unique<Shared>(Shared{.render = render,
+                                                 .catalogue = *catalogue,
+                                                 .views = *views,
+                                                 .limits = {},
+                                                 .server = "test",
+                                                 .sourceUrl = {}});
+    }
+    std::unique_ptr<SessionClient> client() {
+        return std::make_unique<SessionClient>(*shared, ++clients);
+    }
+
+    ScriptedRender render;
+    ViewRouter router;
+    std::unique_ptr<Catalogue> catalogue;
+    EncodePool encoders{1};
+    std::unique_ptr<Views> views;
+    std::unique_ptr<Shared> shared;
+    std::uint64_t clients = 0;
+};
+
+class SessionPeople : public testing::Test {
+protected:
+    void SetUp() override {
+        ann->hello("Ann");
+        welcome = ann->wait([](const auto& one) { return one.has_welcome(); })->welcome();
+        ann->openView();
+        opened = ann->wait([](const auto& one) { return one.has_view_opened(); });
+        ASSERT_TRUE(opened.has_value());
+    }
+    std::unique_ptr<SessionClient> join(const std::string& name, v1::Role role,
+                                        std::uint32_t width = 8) {
+        auto client = server.client();
+        client->hello(name);
+        const std::string link = ann->share(role);
+        client->openView(link, 1, width);
+        EXPECT_TRUE(client->wait([](const auto& one) { return one.has_view_opened(); }));
+        return client;
+    }
+    static bool hasOpened(const v1::ServerMessage& one) { return one.has_view_opened(); }
+    static bool hasWelcome(const v1::ServerMessage& one) { return one.has_welcome(); }
+
+    LinkKey key = *LinkKey::random();
+    TestServer server{key};
+    std::unique_ptr<SessionClient> ann = server.client();
+    v1::Welcome welcome;
+    std::optional<v1::ServerMessage> opened;
+};
+
+TEST_F(SessionPeople, WhoOpensAViewSteersIt) {
+    EXPECT_EQ(opened->view_opened().role(), v1::ROLE_CONTROL);
+    EXPECT_EQ(opened->view_opened().id().size(), 22U) << "128 bits";
+    EXPECT_EQ(opened->view_opened().input_seq(), 1U);
+    const auto people = ann->people(1, "Ann");
+    ASSERT_TRUE(people.has_value());
+    EXPECT_EQ(people->people(0).id(), welcome.person());
+}
+
+TEST_F(SessionPeople, NamelessPeopleAreGuestsAndLongNamesAreRefused) {
+    const auto guest = server.client();
+    guest->hello();
+    guest->openView(ann->share(v1::ROLE_WATCH));
+    const auto people = guest->people(2, "Ann");
+    ASSERT_TRUE(people.has_value());
+    EXPECT_EQ(people->people(1).name(), "Guest 2");
+    const auto chatty = server.client();
+    chatty->hello(std::string(65, 'x'));
+    EXPECT_EQ(chatty->error()->field(), "hello.person");
+    EXPECT_TRUE(chatty->session->closing().has_value());
+}
+
+TEST_F(SessionPeople, AWatcherSeesTheCameraMoveButMayNotMoveIt) {
+    const auto ben = join("Ben", v1::ROLE_WATCH);
+    ann->look(2, 5.0);
+    const auto changed = ben->sceneChanged();
+    ASSERT_TRUE(changed.has_value());
+    EXPECT_EQ(changed->input_seq(), 2U);
+    EXPECT_EQ(changed->person(), welcome.person());
+    EXPECT_EQ(changed->camera().eye().x(), 5.0);
+    EXPECT_FALSE(changed->has_scene()) << "the camera alone moved";
+    EXPECT_TRUE(changed->can_undo());
+    EXPECT_TRUE(ann->never([](const auto& one) { return one.has_scene_changed(); }));
+
+    ben->look(9, 7.0);
+    const auto refused = ben->error();
+    ASSERT_TRUE(refused.has_value());
+    EXPECT_EQ(refused->code(), v1::ERROR_CODE_NOT_PERMITTED);
+    EXPECT_EQ(refused->input_seq(), 9U);
+    ben->undo();
+    EXPECT_EQ(ben->error()->code(), v1::ERROR_CODE_NOT_PERMITTED);
+    EXPECT_TRUE(ann->never([](const auto& one) { return one.has_scene_changed(); }));
+}
+
+// Role escalation: nothing that a watcher can send makes them steer.
+TEST_F(SessionPeople, AWatcherCannotGetControlByThemselves) {
+    const auto ben = join("Ben", v1::ROLE_WATCH);
+    ben->takeControl();
+    EXPECT_EQ(ben->error()->code(), v1::ERROR_CODE_NOT_PERMITTED);
+    for (const v1::Role role : {v1::ROLE_WATCH, v1::ROLE_CONTROL}) EXPECT_EQ(ben->share(role), "");
+    const auto people = ann->people(2, "Ann");
+    ASSERT_TRUE(people.has_value());
+    ben->handOver(people->people(1).id());
+    EXPECT_EQ(ben->error()->code(), v1::ERROR_CODE_NOT_PERMITTED);
+    ben->look(50, 3.0);
+    EXPECT_EQ(ben->error()->code(), v1::ERROR_CODE_NOT_PERMITTED);
+    EXPECT_TRUE(ann->never([](const auto& one) { return one.has_people(); })) << "nothing changed";
+}
+
+TEST_F(SessionPeople, ControlIsTakenAndTheNewInputsCount) {
+    const auto ben = join("Ben", v1::ROLE_CONTROL);
+    ann->look(40, 5.0);
+    ben->takeControl();
+    const auto changed = ben->wait(
+        [](const auto& one) { return one.has_scene_changed() && one.scene_changed().has_scene(); });
+    ASSERT_TRUE(changed.has_value());
+    EXPECT_EQ(changed->scene_changed().input_seq(), 40U);
+    EXPECT_EQ(changed->scene_changed().scene().camera().eye().x(), 5.0);
+    ASSERT_TRUE(ann->people(2, "Ben").has_value());
+    ann->look(41, 6.0);
+    const auto refused = ann->error();
+    ASSERT_TRUE(refused.has_value());
+    EXPECT_EQ(refused->code(), v1::ERROR_CODE_NOT_PERMITTED);
+    EXPECT_EQ(refused->message(), "Ben steers this view; take control first");
+    ben->look(41, 7.0);
+    EXPECT_EQ(ann->sceneChanged()->camera().eye().x(), 7.0);
+    ann->takeControl();
+    EXPECT_TRUE(ben->people(2, "Ann").has_value());
+}
+
+TEST_F(SessionPeople, AWatcherWhoIsHandedControlSteers) {
+    const auto ben = join("Ben", v1::ROLE_WATCH);
+    const auto people = ann->people(2, "Ann");
+    ASSERT_TRUE(people.has_value());
+    ann->handOver(people->people(1).id());
+    ASSERT_TRUE(ben->people(2, "Ben").has_value());
+    ben->look(2, 8.0);
+    EXPECT_EQ(ann->sceneChanged()->camera().eye().x(), 8.0);
+    ann->handOver(99);
+    EXPECT_EQ(ann->error()->code(), v1::ERROR_CODE_NOT_PERMITTED);
+}
+
+TEST_F(SessionPeople, EachHasAViewportOfTheirOwn) {
+    const auto ben = join("Ben", v1::ROLE_WATCH, 20);
+    ASSERT_TRUE(server.render.has(server.render.requests, 1));
+    v1::ClientMessage message;
+    message.mutable_update()->set_view(1);
+    message.mutable_update()->set_input_seq(2);
+    message.mutable_update()->mutable_viewport()->set_width(30);
+    message.mutable_update()->mutable_viewport()->set_height(30);
+    ben->send(message);
+    EXPECT_TRUE(ben->never([](const auto& one) { return one.has_error(); }));
+    EXPECT_TRUE(ann->never([](const auto& one) { return one.has_scene_changed(); }));
+    ann->look(2, 5.0);
+    EXPECT_EQ(ben->sceneChanged()->input_seq(), 2U) << "a watcher's resize is no input of the view";
+}
+
+TEST_F(SessionPeople, LinksThatAreNoneAreRefused) {
+    const auto ben = server.client();
+    ben->hello("Ben");
+    std::string link = ann->share(v1::ROLE_WATCH);
+    link[4] = link[4] == 'A' ? 'B' : 'A';
+    ben->openView(link);
+    auto refused = ben->error();
+    ASSERT_TRUE(refused.has_value());
+    EXPECT_EQ(refused->code(), v1::ERROR_CODE_NOT_PERMITTED);
+    EXPECT_EQ(refused->field(), "link");
+    ben->openView(*signLink({.view = opened->view_opened().id(),
+                             .role = v1::ROLE_CONTROL,
+                             .expires = std::chrono::system_clock::now() - std::chrono::seconds{1}},
+                            key));
+    EXPECT_EQ(ben->error()->message(), "the link has expired");
+    ben->openView(*signLink(
+        {.view = "nothing", .expires = std::chrono::system_clock::now() + std::chrono::hours{1}},
+        key));
+    EXPECT_EQ(ben->error()->code(), v1::ERROR_CODE_NOT_FOUND);
+    EXPECT_EQ(ann->share(v1::ROLE_WATCH, 31U * 24 * 3600), "") << "for more than 30 days";
+    EXPECT_EQ(ann->share(v1::ROLE_UNSPECIFIED), "");
+}
+
+TEST_F(SessionPeople, AViewTakesSoManyPeopleAndAServerSoManyViews) {
+    std::vector<std::unique_ptr<SessionClient>> others;
+    for (int i = 0; i < 3; ++i) others.push_back(join("more", v1::ROLE_WATCH));
+    const auto last = server.client();
+    last->hello("last");
+    last->openView(ann->share(v1::ROLE_WATCH));
+    const auto full = last->error();
+    ASSERT_TRUE(full.has_value());
+    EXPECT_EQ(full->code(), v1::ERROR_CODE_LIMIT_EXCEEDED);
+    EXPECT_NE(full->message().find("--max-people"), std::string::npos) << full->message();
+    for (std::uint32_t view = 2; view <= 4; ++view) last->openView({}, view);
+    const auto noMore = last->error();
+    ASSERT_TRUE(noMore.has_value());
+    EXPECT_EQ(noMore->code(), v1::ERROR_CODE_LIMIT_EXCEEDED);
+    EXPECT_EQ(noMore->view(), 4U);
+}
+
+TEST_F(SessionPeople, WhatIsUndoneIsToldToAllAndTheOneWhoDidItNumbersOn) {
+    const auto ben = join("Ben", v1::ROLE_WATCH);
+    const double before = opened->view_opened().scene().camera().eye().x();
+    for (std::uint64_t seq = 2; seq < 12; ++seq) ann->look(seq, static_cast<double>(seq));
+    ann->undo();
+    for (SessionClient* client : {ann.get(), ben.get()}) {
+        const auto changed = client->wait([](const auto& one) {
+            return one.has_scene_changed() && one.scene_changed().input_seq() == 12;
+        });
+        ASSERT_TRUE(changed.has_value());
+        EXPECT_EQ(changed->scene_changed().scene().camera().eye().x(), before) << "one step";
+        EXPECT_FALSE(changed->scene_changed().can_undo());
+        EXPECT_TRUE(changed->scene_changed().can_redo());
+    }
+    ann->undo();
+    EXPECT_EQ(ann->error()->message(), "there is nothing to undo");
+    ann->undo(true);
+    EXPECT_EQ(ann->sceneChanged()->scene().camera().eye().x(), 11.0);
+}
+
+TEST_F(SessionPeople, WhoLosesTheConnectionComesBackToEverything) {
+    const auto ben = join("Ben", v1::ROLE_WATCH);
+    ann->look(7, 5.0);
+    ann.reset();
+    const auto away = ben->wait(
+        [](const auto& one) { return one.has_people() && one.people().people(0).away(); });
+    ASSERT_TRUE(away.has_value());
+    EXPECT_TRUE(away->people().people(0).steers()) << "control is kept";
+    ann = server.client();
+    ann->hello({}, welcome.resume());
+    const auto again = ann->wait(hasWelcome);
+    ASSERT_TRUE(again.has_value());
+    EXPECT_TRUE(again->welcome().resumed());
+    EXPECT_EQ(again->welcome().person(), welcome.person());
+    EXPECT_NE(again->welcome().resume(), welcome.resume());
+    const auto back = ann->wait(hasOpened);
+    ASSERT_TRUE(back.has_value());
+    EXPECT_EQ(back->view_opened().view(), 1U);
+    EXPECT_EQ(back->view_opened().id(), opened->view_opened().id());
+    EXPECT_EQ(back->view_opened().input_seq(), 7U);
+    EXPECT_EQ(back->view_opened().role(), v1::ROLE_CONTROL);
+    EXPECT_EQ(back->view_opened().scene().camera().eye().x(), 5.0);
+    EXPECT_TRUE(back->view_opened().can_undo());
+    ann->look(8, 6.0);
+    EXPECT_EQ(ben->sceneChanged()->camera().eye().x(), 6.0);
+}
+
+TEST_F(SessionPeople, AResumeTokenIsGoodOnce) {
+    ann.reset();
+    const auto back = server.client();
+    back->hello({}, welcome.resume());
+    ASSERT_TRUE(back->wait(hasWelcome)->welcome().resumed());
+    const auto thief = server.client();
+    thief->hello("Thief", welcome.resume());
+    const auto refused = thief->error();
+    ASSERT_TRUE(refused.has_value());
+    EXPECT_EQ(refused->code(), v1::ERROR_CODE_NOT_PERMITTED);
+    EXPECT_EQ(refused->field(), "hello.resume");
+    EXPECT_FALSE(thief->wait(hasWelcome)->welcome().resumed());
+    EXPECT_FALSE(back->session->closing().has_value()) << "a replay ends nobody's connection";
+}
+
+// A network that went away without a word: the server still holds the old connection.
+TEST_F(SessionPeople, ResumingEndsTheConnectionThatWasThoughtAlive) {
+    const auto back = server.client();
+    back->hello({}, welcome.resume());
+    ASSERT_TRUE(back->wait(hasOpened).has_value());
+    ann->look(2, 9.0);  // Of the old connection: too late.
+    EXPECT_TRUE(back->never([](const auto& one) { return one.has_scene_changed(); }));
+    for (int i = 0; i < 100 && !ann->session->closing(); ++i) ann->run();
+    ASSERT_TRUE(ann->session->closing().has_value());
+    EXPECT_EQ(ann->session->closing()->code, 4001);
+    ann.reset();
+    back->look(2, 3.0);
+    back->undo();
+    EXPECT_TRUE(back->sceneChanged().has_value()) << "it does not steer";
+}
+
+TEST_F(SessionPeople, ATokenOfAConnectionThatEndedLongAgoIsRefused) {
+    TestServer brief{key, std::chrono::seconds{0}};
+    auto client = brief.client();
+    client->hello("Brief");
+    const auto token = client->wait(hasWelcome)->welcome().resume();
+    client->openView();
+    ASSERT_TRUE(client->wait(hasOpened).has_value());
+    client.reset();
+    const auto back = brief.client();
+    back->hello({}, token);
+    EXPECT_EQ(back->error()->code(), v1::ERROR_CODE_NOT_PERMITTED);
+}
+
+TEST_F(SessionPeople, ManyWhoTakeControlAtOnceLeaveOneWhoSteers) {
+    std::vector<std::unique_ptr<SessionClient>> others;
+    for (int i = 0; i < 3; ++i) others.push_back(join("p" + std::to_string(i), v1::ROLE_CONTROL));
+    std::vector<std::thread> threads;
+    for (const auto& one : others) {
+        threads.emplace_back([&one] {
+            for (std::uint64_t seq = 2; seq < 40; ++seq) {
+                one->takeControl();
+                one->look(seq, static_cast<double>(seq));
+            }
+        });
+    }
+    for (std::thread& thread : threads) thread.join();
+    ann->takeControl();
+    const auto people = ann->people(4, "Ann");
+    ASSERT_TRUE(people.has_value());
+    int steering = 0;
+    for (const v1::Person& person : people->people()) steering += person.steers() ? 1 : 0;
+    EXPECT_EQ(steering, 1);
+}
+
+TEST(SavedViews, ComeBackInAnotherServerWithLinksAndTokens) {
+    const support::TemporaryFolder folder;
+    const LinkKey key = *LinkKey::random();
+    std::string token, link, id;
+    {
+        TestServer server{key, std::chrono::seconds{60},
+                          *StateFolder::create(folder.path().string())};
+        auto ann = server.client();
+        ann->hello("Ann");
+        token = ann->wait([](const auto& one) { return one.has_welcome(); })->welcome().resume();
+        ann->openView({}, 1, 33);
+        id = ann->wait([](const auto& one) { return one.has_view_opened(); })->view_opened().id();
+        ann->look(9, 4.5);
+        link = ann->share(v1::ROLE_WATCH);
+        ann.reset();
+    }
+    TestServer server{key, std::chrono::seconds{60}, *StateFolder::create(folder.path().string())};
+    const auto ben = server.client();
+    ben->hello("Ben");
+    ben->openView(link);
+    const auto joined = ben->wait([](const auto& one) { return one.has_view_opened(); });
+    ASSERT_TRUE(joined.has_value());
+    EXPECT_EQ(joined->view_opened().role(), v1::ROLE_WATCH);
+    EXPECT_EQ(joined->view_opened().scene().camera().eye().x(), 4.5);
+    const auto ann = server.client();
+    ann->hello({}, token);
+    const auto welcome = ann->wait([](const auto& one) { return one.has_welcome(); });
+    EXPECT_TRUE(welcome->welcome().resumed());
+    const auto back = ann->wait([](const auto& one) { return one.has_view_opened(); });
+    ASSERT_TRUE(back.has_value());
+    EXPECT_EQ(back->view_opened().id(), id);
+    EXPECT_EQ(back->view_opened().input_seq(), 9U);
+    EXPECT_EQ(back->view_opened().role(), v1::ROLE_CONTROL);
+    EXPECT_TRUE(ann->people(2, "Ann").has_value());
+    const auto other = server.client();
+    other->hello("Other");
+    EXPECT_NE(other->wait([](const auto& one) { return one.has_welcome(); })->welcome().person(),
+              welcome->welcome().person());
+}
+
+}  // namespace
+}  // namespace volcast::session

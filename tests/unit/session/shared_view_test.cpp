@@ -1,0 +1,271 @@
+// Several viewers of one view: what is drawn, what is encoded, who is told what.
+#include <atomic>
+#include <condition_variable>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+#include "tests/unit/session/scripted_render.h"
+
+namespace volcast::session {
+namespace {
+
+using test::drawn;
+using test::importCube;
+using test::ScriptedRender;
+
+class SharedViewTest : public testing::Test {
+protected:
+    void SetUp() override {
+        CatalogueDesc desc;
+        desc.importer = importCube;
+        catalogue = *Catalogue::create(std::move(desc), render);
+        events = router.events();
+        const std::string id = catalogue->list().datasets(0).id();
+        ASSERT_TRUE(catalogue->require(id).has_value());
+        while (!catalogue->standing(id).loaded) std::this_thread::yield();
+        views = std::make_unique<Views>(ViewsDesc{.parts = {.render = render,
+                                                            .catalogue = *catalogue,
+                                                            .router = router,
+                                                            .encoders = encoders},
+                                                  .key = *LinkKey::random()});
+        v1::OpenView open;
+        open.set_dataset(id);
+        open.set_input_seq(1);
+        view = *views->open(open);
+    }
+    void TearDown() override {
+        view.reset();
+        views->clear();
+        catalogue.reset();
+    }
+    ViewerId join(scene::PictureSize size = {8, 6}, v1::Role role = v1::ROLE_CONTROL) {
+        return *view->join({.number = 1,
+                            .codecs = {},
+                            .size = size,
+                            .wake =
+                                [this] {
+                                    const std::lock_guard lock{mutex};
+                                    ++wakes;
+                                    woken.notify_all();
+                                }},
+                           {.person = ++people, .name = "p" + std::to_string(people), .role = role},
+                           Clock::now());
+    }
+    void look(ViewerId viewer, std::uint64_t seq) {
+        v1::Update update;
+        update.set_input_seq(seq);
+        v1::Camera& camera = *update.mutable_camera();
+        camera.mutable_eye()->set_x(static_cast<double>(seq));
+        camera.mutable_center();
+        camera.mutable_up()->set_z(1);
+        camera.set_fovy_degrees(40);
+        ASSERT_TRUE(view->update(viewer, update, Clock::now()).has_value());
+    }
+    /// What the renderer was asked for last.
+    workers::RenderRequest newest() {
+        EXPECT_TRUE(render.has(render.requests, view->counts().drawsAsked));
+        const std::lock_guard lock{render.mutex};
+        return render.requests.back();
+    }
+    void drawLast() { events.rendered(drawn(newest())); }
+    /// The viewer's next frame, as encoders bring it.
+    std::optional<ReadyFrame> frameOf(ViewerId viewer) {
+        const auto until = Clock::now() + std::chrono::seconds{30};
+        while (Clock::now() < until) {
+            view->tick(viewer, Clock::now());
+            if (auto frame = view->takeFrame(viewer, Clock::now())) return frame;
+            std::unique_lock lock{mutex};
+            woken.wait_for(lock, std::chrono::milliseconds{20});
+        }
+        return std::nullopt;
+    }
+    void ack(ViewerId viewer, std::uint32_t sequence) {
+        view->acked(viewer, {.sequence = sequence}, Clock::now());
+    }
+
+    ScriptedRender render;
+    ViewRouter router;
+    workers::RenderEvents events;
+    std::unique_ptr<Catalogue> catalogue;
+    std::mutex mutex;
+    std::condition_variable woken;
+    int wakes = 0;
+    std::uint32_t people = 0;
+    std::unique_ptr<Views> views;
+    std::shared_ptr<SharedView> view;
+    EncodePool encoders{2};  // Last: its threads call the view until they have ended.
+};
+
+TEST_F(SharedViewTest, FiftyWatchersOfOneSizeCostOneDrawAndOneEncodeAFrame) {
+    std::vector<ViewerId> viewers;
+    for (int i = 0; i < 50; ++i) viewers.push_back(join());
+    for (std::uint64_t seq = 2; seq <= 6; ++seq) {
+        look(viewers[0], seq);
+        drawLast();
+        const void* bytes = nullptr;
+        for (const ViewerId viewer : viewers) {
+            const auto frame = frameOf(viewer);
+            ASSERT_TRUE(frame.has_value()) << viewer;
+            EXPECT_EQ(frame->header.input_seq(), seq);
+            if (bytes == nullptr) bytes = frame->payload.get();
+            EXPECT_EQ(frame->payload.get(), bytes);
+            ack(viewer, frame->sequence);
+        }
+    }
+    // The first draw was asked for when the first of them came, and overtaken.
+    EXPECT_EQ(view->counts().drawsAsked, 6U);
+    EXPECT_EQ(view->counts().encodes, 5U);
+}
+
+TEST_F(SharedViewTest, AWatcherWhoComesLateGetsThePictureThatIsThere) {
+    const ViewerId first = join();
+    drawLast();
+    ASSERT_TRUE(frameOf(first).has_value());
+    const ViewerId late = join();
+    const auto frame = frameOf(late);
+    ASSERT_TRUE(frame.has_value());
+    EXPECT_EQ(frame->sequence, 1U);
+    EXPECT_EQ(view->counts().drawsAsked, 1U);
+    EXPECT_EQ(view->counts().encodes, 1U);
+}
+
+TEST_F(SharedViewTest, OtherSizesAreDrawnForThemselvesOneAtATime) {
+    const ViewerId small = join({8, 6}), large = join({16, 12});
+    ASSERT_TRUE(render.has(render.requests, 1)) << "one request of a view at a time";
+    EXPECT_EQ(render.requests[0].size, glm::ivec2(8, 6));
+    drawLast();
+    ASSERT_TRUE(render.has(render.requests, 2));
+    EXPECT_EQ(render.requests[1].size, glm::ivec2(16, 12));
+    // While the large one is drawn, the small one's news wait; then both had their turn.
+    look(small, 2);
+    EXPECT_EQ(newest().size, glm::ivec2(16, 12));
+    drawLast();
+    EXPECT_EQ(newest().size, glm::ivec2(8, 6));
+    drawLast();
+    EXPECT_EQ(frameOf(small)->header.width(), 8U);
+    EXPECT_EQ(frameOf(large)->header.width(), 16U);
+}
+
+TEST_F(SharedViewTest, ASlowWatcherLeavesTheOthersTheirFrames) {
+    const ViewerId steers = join(), slow = join();
+    for (std::uint64_t seq = 2; seq <= 12; ++seq) {
+        look(steers, seq);
+        drawLast();
+        const auto frame = frameOf(steers);
+        ASSERT_TRUE(frame.has_value());
+        EXPECT_EQ(frame->header.input_seq(), seq);
+        ack(steers, frame->sequence);
+        if (seq <= 3) {
+            ASSERT_TRUE(frameOf(slow).has_value());  // And never acks.
+        }
+    }
+    EXPECT_EQ(view->framesSent(slow), 2U);
+    ack(slow, 1);
+    EXPECT_EQ(frameOf(slow)->header.input_seq(), 12U);
+}
+
+TEST_F(SharedViewTest, AViewWithoutViewersDrawsNothing) {
+    const ViewerId one = join();
+    ASSERT_TRUE(render.has(render.requests, 1));
+    const workers::RenderRequest asked = newest();
+    view->leave(one);
+    EXPECT_EQ(render.dropped, std::vector<std::uint64_t>{view->global()});
+    events.rendered(drawn(asked));  // Was in flight: nobody wants it.
+    EXPECT_TRUE(render.has(render.requests, 1));
+    const ViewerId again = join();
+    ASSERT_TRUE(render.has(render.requests, 2));
+    drawLast();
+    EXPECT_TRUE(frameOf(again).has_value());
+}
+
+TEST_F(SharedViewTest, ARendererThatRefusesAtOnceIsHeard) {
+    const ViewerId one = join();
+    drawLast();
+    events.failed(view->global(), newest().tag + 1, fail(ErrorCode::kIo, "unknown"));
+    look(one, 2);
+    events.failed(view->global(), newest().tag, fail(ErrorCode::kIo, "no"));
+    std::optional<v1::ServerMessage> error;
+    while (auto mail = view->takeMail(one)) {
+        if (mail->has_error()) error = std::move(mail);
+    }
+    ASSERT_TRUE(error.has_value());
+    EXPECT_EQ(error->error().message(), "no");
+    look(one, 3);
+    EXPECT_TRUE(render.has(render.requests, 3));
+}
+
+TEST_F(SharedViewTest, PicksOfTwoViewersAreBothAnswered) {
+    const ViewerId one = join(), two = join();
+    drawLast();
+    ASSERT_TRUE(frameOf(one) && frameOf(two));
+    v1::Pick pick;
+    pick.set_x(1);
+    ASSERT_TRUE(view->pick(one, pick).has_value());
+    pick.set_x(2);
+    ASSERT_TRUE(view->pick(two, pick).has_value());
+    ASSERT_TRUE(render.has(render.picks, 1)) << "the render service keeps one of a view";
+    for (std::size_t i = 0; i < 2; ++i) {
+        events.picked(view->global(), render.picks.at(i).tag, std::optional<scene::Picked>{});
+    }
+    for (const auto& [viewer, x] : {std::pair{one, 1U}, std::pair{two, 2U}}) {
+        std::optional<v1::ServerMessage> mail;
+        while ((mail = view->takeMail(viewer)) && !mail->has_picked()) {
+        }
+        ASSERT_TRUE(mail.has_value());
+        EXPECT_EQ(mail->picked().x(), x);
+    }
+}
+
+/// Draws at once, on a thread of its own, as the real one does.
+TEST_F(SharedViewTest, ManyThreadsAtOnceLoseNoFrame) {
+    constexpr std::uint64_t kInputs = 200;
+    constexpr int kWatchers = 4;
+    std::atomic<bool> done = false;
+    std::vector<ViewerId> watchers;
+    const ViewerId steers = join();
+    for (int i = 0; i < kWatchers; ++i) watchers.push_back(join());
+    std::vector<std::thread> threads;
+    std::vector<std::uint64_t> seen(kWatchers + 1, 0);
+    const auto watch = [&](ViewerId viewer, std::uint64_t& newest) {
+        const auto until = Clock::now() + std::chrono::seconds{60};
+        while (newest < kInputs && Clock::now() < until) {
+            const auto frame = frameOf(viewer);
+            if (!frame) break;
+            EXPECT_GE(frame->header.input_seq(), newest);
+            newest = frame->header.input_seq();
+            ack(viewer, frame->sequence);
+        }
+    };
+    std::thread renderer{[&] {
+        std::size_t next = 0;
+        while (!done) {
+            std::optional<workers::RenderedFrame> frame;
+            {
+                const std::lock_guard lock{render.mutex};
+                if (render.requests.size() > next) {
+                    next = render.requests.size();
+                    frame = drawn(render.requests.back());
+                }
+            }
+            if (frame) {
+                events.rendered(*frame);
+            } else {
+                std::this_thread::sleep_for(std::chrono::microseconds{200});
+            }
+        }
+    }};
+    for (int i = 0; i < kWatchers; ++i) {
+        threads.emplace_back(watch, watchers[static_cast<std::size_t>(i)],
+                             std::ref(seen[static_cast<std::size_t>(i)]));
+    }
+    threads.emplace_back(watch, steers, std::ref(seen[kWatchers]));
+    for (std::uint64_t seq = 2; seq <= kInputs; ++seq) look(steers, seq);
+    for (std::thread& thread : threads) thread.join();
+    done = true;
+    renderer.join();
+    for (const std::uint64_t newest : seen) EXPECT_EQ(newest, kInputs);
+}
+
+}  // namespace
+}  // namespace volcast::session
