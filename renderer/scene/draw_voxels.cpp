@@ -2,9 +2,11 @@
 #include "renderer/plan/effects.h"
 #include "renderer/scene/brick_view.h"
 #include "renderer/scene/channels.h"
+#include "renderer/scene/cover.h"
 #include "renderer/scene/layer_draw.h"
 #include "renderer/scene/layer_fields.h"
 #include "renderer/scene/scale.h"
+#include "renderer/scene/shown_values.h"
 
 namespace volcast::scene {
 namespace {
@@ -64,6 +66,17 @@ Result<void> prepareBricks(DrawContext& context, const Frame& frame, LayerDraw& 
     return {};
 }
 
+/// The pixels that rays through voxels may change.
+PixelBox coverOfRays(const Frame& frame, const LayerDraw& draw, bool passesOver) {
+    // An X-ray is white where nothing is.
+    if (draw.layer->model == RayModel::kXray)
+        return {.low = {0, 0}, .size = {frame.size.x, frame.size.y}};
+    const auto& volume = std::get<data::Volume>(draw.dataset->data());
+    const std::array<glm::vec3, 2> all{glm::vec3{0.0F}, glm::vec3{volume.size - 1}};
+    return coverOf(frame.scene->camera, frame.size, volume,
+                   passesOver ? draw.state->emptySpace.box() : all);
+}
+
 }  // namespace
 
 Result<void> prepareVoxels(DrawContext& context, const Frame& frame, LayerDraw& draw) {
@@ -75,23 +88,29 @@ Result<void> prepareVoxels(DrawContext& context, const Frame& frame, LayerDraw& 
         draw.dataset->channel(*context.device, *draw.layer, context.frame);
     if (!channel) return channel.error();
     draw.channel = *channel;
-    return {};
+    if (!volume::passesOverEmptySpace(*draw.layer, *draw.plan)) return {};
+    return draw.state->emptySpace.set(*context.device, (*channel)->ranges(),
+                                      shownValues(*draw.layer, *draw.plan, draw.dataset->summary()),
+                                      draw.layer->sampling == Sampling::kTricubic);
 }
 
 Result<void> drawVoxels(const DrawContext& context, const Frame& frame, const LayerDraw& draw,
                         const gpu::Target& target) {
-    const volume::DrawInputs inputs{.device = context.device,
-                                    .programs = context.programs,
-                                    .channel = draw.channel,
-                                    .bricks = draw.pool != nullptr ? &draw.state->bricks : nullptr,
-                                    .pool = draw.pool,
-                                    .volume = &std::get<data::Volume>(draw.dataset->data()),
-                                    .layer = draw.layer,
-                                    .plan = draw.plan,
-                                    .clipPlanes = static_cast<int>(frame.scene->clipPlanes.size()),
-                                    .filterInHardware = context.filterInHardware,
-                                    .constants = draw.constants,
-                                    .target = &target};
+    const bool passesOver =
+        draw.channel != nullptr && volume::passesOverEmptySpace(*draw.layer, *draw.plan);
+    volume::DrawInputs inputs{.device = context.device,
+                              .programs = context.programs,
+                              .channel = draw.channel,
+                              .bricks = draw.pool != nullptr ? &draw.state->bricks : nullptr,
+                              .pool = draw.pool,
+                              .emptySpace = passesOver ? &draw.state->emptySpace : nullptr,
+                              .volume = &std::get<data::Volume>(draw.dataset->data()),
+                              .layer = draw.layer,
+                              .plan = draw.plan,
+                              .clipPlanes = static_cast<int>(frame.scene->clipPlanes.size()),
+                              .filterInHardware = context.filterInHardware,
+                              .constants = draw.constants,
+                              .target = &target};
     if (draw.code) {
         return volume::drawUserCode(inputs, {.texts = draw.code->texts,
                                              .channels = draw.rawChannels,
@@ -108,8 +127,12 @@ Result<void> drawVoxels(const DrawContext& context, const Frame& frame, const La
             return volume::drawSlices(inputs, std::get<data::Volume>(draw.dataset->data()),
                                       frame.scene->camera, frame.depths.nearest, frame.size,
                                       draw.state->slices);
-        default: return volume::drawMarch(inputs);
+        default: break;
     }
+    const PixelBox cover = coverOfRays(frame, draw, passesOver);
+    inputs.cover = {cover.low, cover.size};
+    if (cover.size.x == 0 || cover.size.y == 0) return {};
+    return volume::drawMarch(inputs);
 }
 
 }  // namespace volcast::scene

@@ -12,14 +12,6 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
-/// Half of what the picture spans: at depth 1 (perspective) or anywhere (orthographic).
-glm::dvec2 halfExtent(const Camera& camera, PictureSize size) {
-    const double half = camera.projection == Projection::kPerspective
-                            ? std::tan(0.5 * camera.fovyDegrees * kPi / 180.0)
-                            : 0.5 * camera.orthographicHeight;
-    return {half * size.x / size.y, half};
-}
-
 glm::vec4 vector(const glm::dvec3& v, double w = 0.0) {
     return {glm::vec3(v), w};
 }
@@ -76,6 +68,13 @@ glm::vec4 sections(const CrossSections& planes, const data::Volume& volume) {
 }
 
 }  // namespace
+
+glm::dvec2 halfExtent(const Camera& camera, PictureSize size) {
+    const double half = camera.projection == Projection::kPerspective
+                            ? std::tan(0.5 * camera.fovyDegrees * kPi / 180.0)
+                            : 0.5 * camera.orthographicHeight;
+    return {half * size.x / size.y, half};
+}
 
 glm::dvec3 meetingPoint(const CrossSections& planes, const data::Volume& volume) {
     const glm::dvec3 last(volume.size - 1);

@@ -23,6 +23,10 @@ struct DepthRange {
 /// Of the boxes in front of the eye's plane; {0, 1} where there are none.
 DepthRange depthRange(const Camera& camera, std::span<const data::Box> boxes);
 
+/// Half of what the picture spans to the right and upwards: at depth 1 (perspective) or anywhere
+/// (orthographic), world units.
+glm::dvec2 halfExtent(const Camera& camera, PictureSize size);
+
 /// Where cross-sections meet, in grid coordinates: within the grid.
 glm::dvec3 meetingPoint(const CrossSections& planes, const data::Volume& volume);
 

@@ -14,6 +14,7 @@
 #include "renderer/scene/user_table.h"
 #include "renderer/scene/view_blocks.h"
 #include "renderer/volume/bricked_layer.h"
+#include "renderer/volume/empty_space.h"
 #include "renderer/volume/slices.h"
 
 namespace volcast::scene {
@@ -28,6 +29,7 @@ struct LayerState {
     std::unique_ptr<mesh::ProjectionState> projection = mesh::ProjectionState::create();
     bool projected = false;        ///< `projection` is in use, `walk` is empty.
     std::uint64_t generation = 0;  ///< Of the dataset that both belong to.
+    volume::EmptySpace emptySpace;
     volume::BrickedLayer bricks;
     std::optional<volume::BrickReport> brickReport;  ///< Where it was last drawn from bricks.
 };

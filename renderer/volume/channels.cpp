@@ -44,7 +44,8 @@ Result<gpu::Buffer> uploadRanges(gpu::Device& device, const data::Volume& volume
                                  std::span<const data::Channel* const> channels) {
     std::vector<glm::vec4> texels;
     for (std::size_t c = 0; c < channels.size(); ++c) {
-        const std::vector<glm::vec2> ranges = blockRanges(volume, *channels[c]);
+        const std::vector<glm::vec2> ranges =
+            joinedAround(blockRanges(volume, *channels[c], 1), blockGrid(volume.size));
         texels.resize(2 * ranges.size(), glm::vec4{0.0F});
         const scene::ScaleFunction scale{scene::Scale{}, channels[c]->range};
         for (std::size_t i = 0; i < ranges.size(); ++i) {

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "renderer/gpu/scissor.h"
 #include "renderer/plan/effects.h"
 #include "renderer/scene/ray_models.h"
 #include "renderer/shading/shared.h"
@@ -17,6 +18,7 @@ MarchTraits traitsOf(const DrawInputs& inputs) {
             .texels = texelsOf(inputs),
             .filterInHardware = inputs.filterInHardware,
             .skipsBricks = inputs.plan->has(plan::kEmptyBricks),
+            .byDistance = inputs.emptySpace != nullptr,
             .earlyStop = inputs.plan->has(plan::kEarlyStop),
             .lit = inputs.plan->has(plan::kGradient),
             .shaded = inputs.plan->has(plan::kLight),
@@ -76,7 +78,8 @@ shading::Recipe marchRecipe(const MarchTraits& traits, std::vector<shading::Cons
                       {"kSumsExtinction", traits.model == scene::RayModel::kXray},
                       {"kMaxRayParts", limits.pieces},
                       {"kSkipBricks", traits.skipsBricks},
-                      // A range says what is found on the way only where all of it counts.
+                      {"kByDistance", traits.skipsBricks && traits.byDistance},
+                      // A sample that is looked at first has to count.
                       {"kForesees", traits.skipsBricks && !traits.interval && !traits.missing &&
                                         (traits.model == scene::RayModel::kMip ||
                                          traits.model == scene::RayModel::kMinip)},
@@ -103,6 +106,12 @@ shading::Recipe marchRecipe(const MarchTraits& traits, std::vector<shading::Cons
     return recipe;
 }
 
+bool passesOverEmptySpace(const scene::Layer& layer, const plan::LayerPlan& plan) {
+    const bool extreme =
+        layer.model == scene::RayModel::kMip || layer.model == scene::RayModel::kMinip;
+    return plan.has(plan::kEmptyBricks) && !plan.has(plan::kBricks) && !extreme;
+}
+
 Result<void> drawMarch(const DrawInputs& inputs) {
     const Result<const gpu::Program*> program =
         inputs.programs->ray(marchRecipe(traitsOf(inputs), inputs.constants));
@@ -112,6 +121,8 @@ Result<void> drawMarch(const DrawInputs& inputs) {
                                 : gpu::PassState{.blend = gpu::Blend::kOver});
     (*program)->use();
     bindField(inputs);
+    if (inputs.emptySpace != nullptr) inputs.emptySpace->bind();
+    const gpu::Scissor scissor{{inputs.cover.x, inputs.cover.y}, {inputs.cover.z, inputs.cover.w}};
     inputs.device->draw(gpu::Primitive::kTriangles, 3);
     return {};
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "renderer/plan/plan.h"
 #include "renderer/shading/program_cache.h"
 #include "renderer/volume/bricked_layer.h"
+#include "renderer/volume/empty_space.h"
 #include "renderer/volume/field.h"
 #include "renderer/volume/raw_channel.h"
 #include "renderer/volume/voxel_blocks.h"
@@ -25,13 +27,20 @@ public:
                                      const data::Channel& channel);
 
     void bind() const noexcept;
+    /// Of volume/ranges.glsl, for values that are interpolated so.
+    void bindRanges(bool tricubic) const noexcept;
     [[nodiscard]] VoxelTexels texels() const noexcept { return texels_; }
+    [[nodiscard]] const std::shared_ptr<const ChannelRanges>& ranges() const noexcept {
+        return ranges_;
+    }
 
 private:
     VoxelTexels texels_ = VoxelTexels::kTexture;
     gpu::Buffer blocks_;     // Of all but kTexture.
     gpu::Texture3D voxels_;  // Of kTexture.
-    gpu::Buffer ranges_;     // See block_ranges.h; 2 floats a block.
+    std::array<gpu::Buffer, 2>
+        reached_;  // See block_ranges.h; 2 floats a block; [1]: of tricubic values.
+    std::shared_ptr<const ChannelRanges> ranges_;
 };
 
 /// True where texture() interpolates float32 voxels in full precision. GPUs commonly keep 8 bits
@@ -46,6 +55,7 @@ struct DrawInputs {
     const ChannelGpu* channel = nullptr;   ///< Or these three, where the plan says so:
     const BrickedLayer* bricks = nullptr;  ///< prepare()d for this picture.
     const BrickPool* pool = nullptr;
+    const EmptySpace* emptySpace = nullptr;  ///< Of the layer, where it passesOver() that.
     const data::Volume* volume = nullptr;
     const scene::Layer* layer = nullptr;
     const plan::LayerPlan* plan = nullptr;
@@ -54,7 +64,13 @@ struct DrawInputs {
     /// Of lib/layer.glsl and of the classification.
     std::vector<shading::Constant> constants;
     const gpu::Target* target = nullptr;
+    /// Of drawMarch(): column and row of the first pixel and size of what is drawn of the target.
+    glm::ivec4 cover{0};
 };
+
+/// Whether a march by that plan passes over what EmptySpace knows to show nothing. Extremes do not:
+/// what can still raise them is known on the way alone.
+bool passesOverEmptySpace(const scene::Layer& layer, const plan::LayerPlan& plan);
 
 /// Draws one layer over what is in the target; one that is opaque where it is nearest. The layer
 /// block, the map and the opaque distances are bound by the caller.
@@ -73,6 +89,7 @@ struct MarchTraits {
     VoxelTexels texels = VoxelTexels::kTexture;
     bool filterInHardware = false;  ///< Of VoxelTexels::kTexture.
     bool skipsBricks = false;
+    bool byDistance = false;  ///< Of those: by EmptySpace.
     bool earlyStop = false;
     bool lit = false;     ///< Isosurfaces, at their hits.
     bool shaded = false;  ///< Volumes, at their samples.

@@ -20,8 +20,6 @@
 //                         < 0 where all was taken; true: nothing behind can show
 //              bool skipsBetween(RayState state, float lo, float hi)
 //                         true: values in [lo, hi] would leave the state as it is
-//              void foresee(inout RayState state, float lo, float hi)
-//                         there will be a piece with values in [lo, hi] alone
 //              vec4 endRay(RayState state, float facing)       premultiplied colour and opacity;
 //                         facing: |cosine| between the ray and the gradient of f where it ended
 //              float hitDistance(RayState state)               of opaque models; huge: no hit

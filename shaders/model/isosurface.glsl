@@ -27,9 +27,6 @@ bool stepRay(inout RayState state, inout Segment rest) {
     return hit.met;
 }
 
-void foresee(inout RayState state, float lo, float hi) {
-}
-
 bool skipsBetween(RayState state, float lo, float hi) {
     return lo >= state.cursor.below && hi < state.cursor.above;
 }

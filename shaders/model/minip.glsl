@@ -22,11 +22,6 @@ bool stepRay(inout RayState state, inout Segment rest) {
     return false;
 }
 
-void foresee(inout RayState state, float lo, float hi) {
-    state.smallest = min(state.smallest, hi);
-    state.met = true;
-}
-
 bool skipsBetween(RayState state, float lo, float hi) {
     return lo >= state.smallest;
 }

@@ -22,11 +22,6 @@ bool stepRay(inout RayState state, inout Segment rest) {
     return false;
 }
 
-void foresee(inout RayState state, float lo, float hi) {
-    state.largest = max(state.largest, lo);
-    state.met = true;
-}
-
 bool skipsBetween(RayState state, float lo, float hi) {
     return hi <= state.largest;
 }

@@ -21,9 +21,6 @@ bool stepRay(inout RayState state, inout Segment rest) {
     return state.depth > kFinishedDepth;
 }
 
-void foresee(inout RayState state, float lo, float hi) {
-}
-
 bool skipsBetween(RayState state, float lo, float hi) {
     return transparentBetween(lo, hi);
 }

@@ -25,9 +25,6 @@ bool stepRay(inout RayState state, inout Segment rest) {
     return state.opacity > kFinishedOpacity;
 }
 
-void foresee(inout RayState state, float lo, float hi) {
-}
-
 bool skipsBetween(RayState state, float lo, float hi) {
     return transparentBetween(lo, hi);
 }

@@ -42,9 +42,6 @@ bool stepRay(inout RayState state, inout Segment rest) {
     return reached || state.opacity > kFinishedOpacity;
 }
 
-void foresee(inout RayState state, float lo, float hi) {
-}
-
 bool skipsBetween(RayState state, float lo, float hi) {
     return false;
 }

@@ -20,9 +20,6 @@ bool stepRay(inout RayState state, inout Segment rest) {
     return false;
 }
 
-void foresee(inout RayState state, float lo, float hi) {
-}
-
 bool skipsBetween(RayState state, float lo, float hi) {
     return transparentBetween(lo, hi);
 }

@@ -214,3 +214,8 @@ vec3 normalAt(vec3 at) {
     vec3 slope = (0.25 * above - 0.25 * below) / max(extent, vec3(0.5));
     return unit(transpose(mat3(layer.gridFromData)) * unit(slope));
 }
+
+float valueAndNormal(vec3 at, out vec3 normal) {
+    normal = normalAt(at);
+    return valueAt(at);
+}

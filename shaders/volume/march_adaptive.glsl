@@ -18,12 +18,13 @@ struct Sampled {
 };
 
 Sampled sampledAt(Ray ray, March march, float at) {
-    float value = valueAt(positionAt(march, at));
+    vec2 light;
+    float value = litValueAt(ray, march, at, light);
     bool counts = !kInterval || (value >= layer.gather.z && value <= layer.gather.w);
     vec4 matter = matterAt(value, value);
     if (lacksValue(value)) counts = false;
     if (!counts) matter = vec4(0.0);
-    return Sampled(value, matter, lightAt(ray, march, at, matter));
+    return Sampled(value, matter, light);
 }
 
 // What a ray is off by at most if a length of `found` counts as `expected`.
@@ -43,50 +44,64 @@ bool takeSample(inout RayState state, Sampled s, float extent, float at) {
     return stepRay(state, piece) && kEarlyStop;
 }
 
+// How far what is to be passed over, or taken, at once goes on, world units.
+float alikeFrom(RayState state, March march, float at, float reach, out bool shows) {
+    if (kByDistance) {
+        float empty = emptyFrom(positionAt(march, at), march.perGrid, shows);
+        return shows ? reach : max(empty, 0.01 * march.dt);
+    }
+    shows = !skipsRange(state, rangeAround(positionAt(march, at + 0.5 * reach)));
+    return reach;
+}
+
 RayState marchedAdaptively(Ray ray, March march) {
     RayState state = beginRay(ray);
-    float at = march.begin;
+    float at = distanceOf(march, float(march.first));
     float end = distanceOf(march, float(march.steps));
-    float allowed = kAdaptiveError / max(end - at, 1.0e-30);
+    if (!(at < end)) return state;
+    float allowed = kAdaptiveError / max(march.extent, 1.0e-30);
     float shortest = kShortestStep * march.dt;
     float step = march.dt;
     vec3 way = abs(march.direction);
-    // A length that ranges reach over, and where the last one that was looked at ends.
     float reach = 2.0 * float(kRangeReach) / max(way.x, max(way.y, way.z));
-    float looked = at;
-    Sampled front = sampledAt(ray, march, at);
+    Sampled front;
     bool finished = false;
     int rounds = kMaxRaySamples;
-    while (at < end && !finished && rounds > 0) {
-        --rounds;
-        float past = at;
-        if (kSkipBricks && at >= looked) {
-            looked = at + reach;
-            vec2 range = rangeAround(positionAt(march, at + 0.5 * reach));
-            if (skipsRange(state, range)) past = min(looked, end);
+    bool jumped = true;
+    do {
+        float until = end;
+        bool shows = true;
+        if (kSkipBricks) {
+            do {
+                until = min(at + alikeFrom(state, march, at, reach, shows), end);
+                jumped = jumped || !shows;
+                at = shows ? at : until;
+            } while (!shows && at < end);
         }
-        if (past > at) {
-            at = past;
-            front = sampledAt(ray, march, at);
-        } else {
-            // A rest that is no step of its own goes with this one.
-            bool last = at + step + shortest > end;
-            float extent = last ? end - at : step;
-            Sampled middle = sampledAt(ray, march, at + 0.5 * extent);
-            Sampled back = sampledAt(ray, march, at + extent);
-            float off = changeOf(middle.matter, 0.5 * (front.matter + back.matter), extent);
-            bool fine = off <= allowed * extent || extent <= 2.0 * shortest;
-            if (fine) {
-                float sixth = extent * (1.0 / 6.0);
-                finished = takeSample(state, front, sixth, at);
-                if (!finished) finished = takeSample(state, middle, 4.0 * sixth, at + sixth);
-                if (!finished) finished = takeSample(state, back, sixth, at + 5.0 * sixth);
-                at = last ? end : at + extent;
-                front = back;
-            }
-            bool easy = fine && 16.0 * off <= allowed * extent;
-            step = easy ? min(2.0 * step, kLongestStep * march.dt) : fine ? step : 0.5 * extent;
+        if (jumped) front = sampledAt(ray, march, at);
+        jumped = false;
+        if (shows) {
+            do {
+                --rounds;
+                // A rest that is no step of its own goes with this one.
+                bool last = at + step + shortest > end;
+                float extent = last ? end - at : step;
+                Sampled middle = sampledAt(ray, march, at + 0.5 * extent);
+                Sampled back = sampledAt(ray, march, at + extent);
+                float off = changeOf(middle.matter, 0.5 * (front.matter + back.matter), extent);
+                bool fine = off <= allowed * extent || extent <= 2.0 * shortest;
+                if (fine) {
+                    float sixth = extent * (1.0 / 6.0);
+                    finished = takeSample(state, front, sixth, at);
+                    if (!finished) finished = takeSample(state, middle, 4.0 * sixth, at + sixth);
+                    if (!finished) finished = takeSample(state, back, sixth, at + 5.0 * sixth);
+                    at = last ? end : at + extent;
+                    front = back;
+                }
+                bool easy = fine && 16.0 * off <= allowed * extent;
+                step = easy ? min(2.0 * step, kLongestStep * march.dt) : fine ? step : 0.5 * extent;
+            } while (at < until && !finished && rounds > 0);
         }
-    }
+    } while (at < end && !finished && rounds > 0);
     return state;
 }

@@ -10,7 +10,7 @@
 // do so. Where kAdaptive steps are no longer equal, where kByVoxels pieces are those of voxels.
 // kCoarseSteps: coarser voxels have longer steps.
 // Constants: kPieces, kNarrows, kAdaptive, kByVoxels, kCoarseSteps; kJitters: samples are not in the middle;
-// kForesees: the model is told all ranges first; kSkipBricks, kEarlyStop, kMaxRaySamples;
+// kForesees: the model sees some samples first; kByDistance: passes over what empty_space.glsl knows; kSkipBricks, kEarlyStop, kMaxRaySamples;
 // kInterval: only values in an interval count; kLit: levels are lit from the eye; kShaded: samples are by layer.light;
 // those of lib/window.glsl and volume/voxels.glsl.
 // Uses: classify through the model; segment through the model.
@@ -21,14 +21,18 @@
 #include "volume/voxels.glsl"
 
 const int kHalvings = 8;
+const float kForeseen = 16.0;  // Grid intervals between samples that are looked at first.
 
 // A ray in grid coordinates and its steps.
 struct March {
     vec3 origin;
     vec3 direction;  // grid units per world unit
     float begin;     // world units from the ray's origin
+    float extent;    // world units in the box
     float dt;        // world units a step
+    int first;       // steps before it and from `steps` on are known to show nothing
     int steps;
+    vec3 perGrid;    // world units that each axis takes for a grid interval; below 0: backwards
 };
 
 float distanceOf(March march, float steps) {
@@ -65,16 +69,21 @@ int stepsAsOne(March march, int i, int beyond) {
 }
 
 #include "volume/ranges.glsl"
+#include "volume/empty_space.glsl"
 
 bool skipsRange(RayState state, vec2 range) {
     if (kInterval) range = vec2(max(range.x, layer.gather.z), min(range.y, layer.gather.w));
     return (kInterval && range.x > range.y) || skipsBetween(state, range.x, range.y);
 }
 
-// What the light adds to matter at a distance; where there is none it is not looked for.
-vec2 lightAt(Ray ray, March march, float at, vec4 matter) {
-    if (!kShaded || matter.a <= 0.0) return vec2(1.0, 0.0);
-    return lightOn(normalAt(positionAt(march, at)), ray.origin + at * ray.direction, -ray.direction);
+// The value at a distance, and what the light adds to matter there.
+float litValueAt(Ray ray, March march, float at, out vec2 light) {
+    light = vec2(1.0, 0.0);
+    if (!kShaded) return valueAt(positionAt(march, at));
+    vec3 normal;
+    float value = valueAndNormal(positionAt(march, at), normal);
+    light = lightOn(normal, ray.origin + at * ray.direction, -ray.direction);
+    return value;
 }
 
 #include "volume/pieces.glsl"
@@ -85,7 +94,7 @@ bool takeStep(inout RayState state, inout float value, Ray ray, March march, int
     float front = value;
     float extent = float(count) * march.dt;
     float at = distanceOf(march, float(i) + float(count) * (kPieces ? 1.0 : share));
-    value = valueAt(positionAt(march, at));
+    value = litValueAt(ray, march, at, pieceLight);
     if (kPieces && !kNarrows) {
         return takePiece(state, sampledPiece(front, value, extent, distanceOf(march, float(i))));
     }
@@ -95,7 +104,6 @@ bool takeStep(inout RayState state, inout float value, Ray ray, March march, int
         enterData(state, sampledPiece(value, value, 0.0, at));
         return false;
     }
-    if (kShaded) pieceLight = lightAt(ray, march, at, matterAt(value, value));
     Segment piece = sampledPiece(kPieces ? front : value, value, extent, distanceOf(march, float(i)));
     return stepRay(state, piece) && kEarlyStop;
 }
@@ -121,24 +129,31 @@ void narrow(inout RayState state, March march, int i, float back) {
     stepRay(state, last);
 }
 
-// Takes the steps from `i` up to `beyond`, or until nothing behind can show.
+// Takes the steps from `i` to `beyond` or so, or until nothing behind can show. At least one is left.
 bool takeSteps(inout RayState state, inout float value, Ray ray, March march, inout int i, int beyond) {
     bool finished = false;
-    // Two a round where that is right: it halves what a round costs, and one waits for memory while
-    // the other is looked up.
-    const bool kTwo = !kPieces && !kShaded && !kInterval && kSampling != kTricubic && !kMissing && !kCoarseSteps;
-    for (; kTwo && i + 1 < beyond && !finished; i += 2) {
-        float first = valueAfter(march, placeOf(i));
-        value = valueAfter(march, placeOf(i + 1));
-        Segment piece = sampledPiece(first, first, march.dt, distanceOf(march, float(i)));
-        stepRay(state, piece);
-        piece = sampledPiece(value, value, march.dt, distanceOf(march, float(i + 1)));
-        finished = stepRay(state, piece) && kEarlyStop;
-    }
-    while (i < beyond && !finished) {
-        int count = stepsAsOne(march, i, beyond);
-        finished = takeStep(state, value, ray, march, i, count);
-        i += count;
+    // Several a round where that is right: it saves most of what a round costs, and while one waits for
+    // memory others are looked up.
+    const int kAtOnce = kPieces || kShaded || kInterval || kMissing || kCoarseSteps || kSampling == kTricubic ? 1 : 4;
+    if (kAtOnce > 1) {
+        int last = march.steps - 1;
+        do {
+            // Behind the last step that one counts again, at no length.
+            float values[kAtOnce];
+            for (int k = 0; k < kAtOnce; ++k) values[k] = valueAfter(march, placeOf(min(i + k, last)));
+            for (int k = 0; k < kAtOnce; ++k) {
+                Segment piece = sampledPiece(values[k], values[k], i + k <= last ? march.dt : 0.0,
+                                             distanceOf(march, float(i + k)));
+                finished = stepRay(state, piece) && kEarlyStop;
+            }
+            i += kAtOnce;
+        } while (i < beyond && !finished);
+    } else {
+        do {
+            int count = stepsAsOne(march, i, beyond);
+            finished = takeStep(state, value, ray, march, i, count);
+            i += count;
+        } while (i < beyond && !finished);
     }
     return finished;
 }
@@ -158,45 +173,84 @@ vec2 rangeOfSteps(March march, int first, int count) {
     return rangeAround(positionAt(march, distanceOf(march, float(first) + 0.5 * float(count))));
 }
 
-// Tells the model what is on its way, so that it need not visit most of it.
-void foreseeAll(inout RayState state, March march, int together) {
-    for (int i = 0; i + together <= march.steps; i += together) {
-        vec2 range = rangeOfSteps(march, i, together);
-        foresee(state, range.x, range.y);
-    }
+// Tells the model of some samples that are on its way, so that it need not visit most of the others.
+void foresee(inout RayState state, March march, int together) {
+    int apart = max(int(kForeseen * float(together) / (2.0 * float(kRangeReach))), 1);
+    int i = min(apart, march.steps) / 2;
+    do {
+        float value = valueAfter(march, placeOf(i));
+        Segment piece = sampledPiece(value, value, march.dt, distanceOf(march, float(i)));
+        stepRay(state, piece);
+        i += apart;
+    } while (i < march.steps);
 }
 
+// Where the steps end that are to be passed over, or taken, together with step `i`.
+int beyondAlike(RayState state, March march, int i, int together, bool skips, out bool shows) {
+    if (!kByDistance) {
+        shows = !skips || !skipsRange(state, rangeOfSteps(march, i, together));
+        return i + together;
+    }
+    vec3 at = positionAt(march, distanceOf(march, placeOf(i)));
+    // What ends on a wall, up to rounding, is looked at again. A sample needs its place alone, a piece
+    // all of its step.
+    float steps = emptyFrom(at, march.perGrid, shows) / march.dt - 1.0e-3;
+    int whole = int(max(steps, 0.0)) + (kPieces ? 0 : 1);
+    shows = shows || whole == 0;
+    return i + (shows ? together : whole);
+}
+
+// The loops test at their ends: llvmpipe runs what lies behind a test once more for no lane at all.
 RayState marched(Ray ray, March march) {
+    RayState state = beginRay(ray);
+    if (march.first >= march.steps) return state;
     if (kAdaptive) return marchedAdaptively(ray, march);
     if (kByVoxels) return marchedByVoxels(ray, march);
-    RayState state = beginRay(ray);
-    float value = kPieces ? valueAfter(march, 0.0) : 0.0;
-    if (kPieces && !lacksValue(value)) {
-        enterData(state, sampledPiece(value, value, 0.0, march.begin));
-    }
+    float value = 0.0;
     bool finished = false;
-    int i = 0;
-    if (!kSkipBricks) finished = takeSteps(state, value, ray, march, i, march.steps);
     int together = stepsTogether(march);
     // Longer steps reach farther than ranges do.
     vec3 step = abs(march.direction) * march.dt;
     bool skips = max(step.x, max(step.y, step.z)) <= 2.0 * float(kRangeReach);
-    if (kForesees && skips) foreseeAll(state, march, together);
-    while (kSkipBricks && i < march.steps && !finished) {
-        int beyond = min(i + together, march.steps);
-        if (skips && skipsRange(state, rangeOfSteps(march, i, together))) {
-            i = beyond;
-            if (kPieces) value = valueAfter(march, float(i));
-            // Behind a gap the field may be anywhere.
-            if (kPieces && (!kNarrows || kMissing) && !lacksValue(value)) {
-                enterData(state, sampledPiece(value, value, 0.0, distanceOf(march, float(i))));
-            }
-        } else {
-            finished = takeSteps(state, value, ray, march, i, beyond);
+    if (kForesees && skips) foresee(state, march, together);
+    int i = march.first;
+    bool jumped = true;
+    bool entered = false;
+    do {
+        int beyond = march.steps;
+        int before = i;
+        bool shows = true;
+        if (kSkipBricks) {
+            do {
+                beyond = min(beyondAlike(state, march, i, together, skips, shows), march.steps);
+                i = shows ? i : beyond;
+            } while (!shows && i < march.steps);
+            jumped = jumped || i > before;
         }
-    }
+        // No level lies in what was passed over.
+        if (kPieces && jumped) {
+            value = valueAfter(march, float(i));
+            Segment here = sampledPiece(value, value, 0.0, distanceOf(march, float(i)));
+            // But behind a gap the field may be anywhere.
+            bool enters = !kNarrows || kMissing || !entered;
+            if (enters && !lacksValue(value)) enterData(state, here);
+            entered = true;
+            jumped = false;
+        }
+        if (shows) finished = takeSteps(state, value, ray, march, i, beyond);
+    } while (i < march.steps && !finished);
     if (kNarrows && finished) narrow(state, march, i - 1, value);
     return state;
+}
+
+// Leaves out the steps before and behind all blocks that show.
+void cutToShown(inout March march) {
+    vec2 span = boxSpan(march.origin, march.direction, shownCorner(0), shownCorner(3));
+    vec2 steps = (span - march.begin) / march.dt;
+    // One more at both ends, for rounding; spans may be empty, or end far away.
+    march.first = int(clamp(floor(steps.x) - 1.0, 0.0, float(march.steps)));
+    march.steps = int(clamp(ceil(steps.y) + 1.0, 0.0, float(march.steps)));
+    if (!(span.x <= span.y)) march.first = march.steps;
 }
 
 // What the ray of a pixel gathers, and how far away it was ended by something opaque.
@@ -213,7 +267,11 @@ vec4 castRay(vec2 pixel, out float distance) {
     if (!(march.begin <= end)) return endRay(beginRay(ray), 1.0);
     float steps = clamp(ceil((end - march.begin) / layer.grid.w), 1.0, float(kMaxRaySamples));
     march.steps = int(steps);
-    march.dt = (end - march.begin) / steps;
+    march.extent = end - march.begin;
+    march.dt = march.extent / steps;
+    march.first = 0;
+    march.perGrid = 1.0 / mix(march.direction, vec3(1.0e-30), equal(march.direction, vec3(0.0)));
+    if (kByDistance) cutToShown(march);
     RayState state = marched(ray, march);
     distance = hitDistance(state);
     float facing = 1.0;

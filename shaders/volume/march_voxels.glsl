@@ -4,7 +4,7 @@
 
 RayState marchedByVoxels(Ray ray, March march) {
     RayState state = beginRay(ray);
-    float at = march.begin;
+    float at = distanceOf(march, float(march.first));
     float end = distanceOf(march, float(march.steps));
     ivec3 point = clamp(ivec3(floor(positionAt(march, at) + 0.5)), ivec3(0), lastPoint());
     ivec3 ahead = ivec3(sign(march.direction));
@@ -18,7 +18,7 @@ RayState marchedByVoxels(Ray ray, March march) {
         if (lacksValue(value)) counts = false;
         float back = clamp(leave, at, end);
         Segment piece = sampledPiece(value, value, back - at, at);
-        if (kShaded) pieceLight = lightAt(ray, march, 0.5 * (at + back), matterAt(value, value));
+        if (kShaded) litValueAt(ray, march, 0.5 * (at + back), pieceLight);
         if (counts) finished = stepRay(state, piece) && kEarlyStop;
         finished = finished || leave >= end;
         at = back;

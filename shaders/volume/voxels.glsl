@@ -100,17 +100,20 @@ vec2 pairFrom(int point, vec2 pair) {
     return point < 0 ? pair.xx : pair;
 }
 
-// Sixteen values of layer z around a cell, weighted.
-float cubicPlane(ivec2 low, vec4 x, vec4 y, int z) {
-    z = clamp(z, 0, lastPoint().z);
+// Sixteen values of layer z around a cell: column i is row i of y, x runs along it.
+mat4 rowsAround(ivec2 low, int z) {
     ivec2 before = low - 1, after = min(low + 1, lastPoint().xy);
     ivec2 first = max(before, ivec2(0));
     vec4 a = face(ivec3(first, z)), b = face(ivec3(after.x, first.y, z));
     vec4 c = face(ivec3(first.x, after.y, z)), d = face(ivec3(after, z));
     vec4 row0 = vec4(pairFrom(before.x, a.xy), b.xy), row1 = vec4(pairFrom(before.x, a.zw), b.zw);
     row1 = before.y < 0 ? row0 : row1;
-    vec4 row2 = vec4(pairFrom(before.x, c.xy), d.xy), row3 = vec4(pairFrom(before.x, c.zw), d.zw);
-    return dot(y, vec4(dot(x, row0), dot(x, row1), dot(x, row2), dot(x, row3)));
+    return mat4(row0, row1, vec4(pairFrom(before.x, c.xy), d.xy), vec4(pairFrom(before.x, c.zw), d.zw));
+}
+
+// The same, weighted.
+float cubicPlane(ivec2 low, vec4 x, vec4 y, int z) {
+    return dot(y, x * rowsAround(low, clamp(z, 0, lastPoint().z)));
 }
 
 // Written out: loops would soon meet the limit of llvmpipe.
@@ -138,6 +141,14 @@ int stepsASample(vec3 at, vec3 step) {
     return 1;
 }
 
+// The direction in the world in which a field rises most that has these values above and below along
+// each axis, so many grid intervals apart.
+vec3 normalOf(vec3 extent, vec3 above, vec3 below) {
+    // Quarters, because the difference of two large values may not be a number.
+    vec3 slope = (0.25 * above - 0.25 * below) / max(extent, vec3(0.5));
+    return unit(transpose(mat3(layer.gridFromData)) * unit(slope));
+}
+
 // The direction in which the field rises most, of length 1 in the world; 0 where it is flat. By
 // central differences over a grid interval to each side; at a face of the box one side is shorter.
 vec3 normalAt(vec3 at) {
@@ -152,7 +163,36 @@ vec3 normalAt(vec3 at) {
         standIn(high, above, at, own);
         standIn(low, below, at, own);
     }
-    // Quarters, because the difference of two large values may not be a number.
-    vec3 slope = (0.25 * above - 0.25 * below) / max(high - low, vec3(0.5));
-    return unit(transpose(mat3(layer.gridFromData)) * unit(slope));
+    return normalOf(high - low, above, below);
+}
+
+float bilinear(vec4 plane, vec2 t) {
+    vec2 line = mix(plane.xy, plane.zw, t.y);
+    return mix(line.x, line.y, t.x);
+}
+
+// Both at once. An interval to the side all weights are the same, so that what seven trilinear values
+// read is read and weighted together: three lines of four values through the cell.
+float valueAndNormal(vec3 at, out vec3 normal) {
+    if (kMissing || kSampling != kTrilinear || kTexels == kTexture) {
+        normal = normalAt(at);
+        return valueAt(at);
+    }
+    ivec3 low = ivec3(at);
+    vec3 t = at - vec3(low);
+    ivec4 z = clamp(low.zzzz + ivec4(-1, 0, 1, 2), ivec4(0), lastPoint().zzzz);
+    mat4 front = rowsAround(low.xy, z.y), back = rowsAround(low.xy, z.z);
+    vec4 row0 = mix(front[0], back[0], t.z), row1 = mix(front[1], back[1], t.z);
+    vec4 row2 = mix(front[2], back[2], t.z), row3 = mix(front[3], back[3], t.z);
+    vec4 alongX = mix(row1, row2, t.y);
+    vec4 alongY = mix(vec4(row0.y, row1.y, row2.y, row3.y), vec4(row0.z, row1.z, row2.z, row3.z), t.x);
+    vec4 alongZ = vec4(bilinear(face(ivec3(low.xy, z.x)), t.xy),
+                       bilinear(vec4(front[1].yz, front[2].yz), t.xy),
+                       bilinear(vec4(back[1].yz, back[2].yz), t.xy),
+                       bilinear(face(ivec3(low.xy, z.w)), t.xy));
+    vec3 above = mix(vec3(alongX.z, alongY.z, alongZ.z), vec3(alongX.w, alongY.w, alongZ.w), t);
+    vec3 below = mix(vec3(alongX.x, alongY.x, alongZ.x), vec3(alongX.y, alongY.y, alongZ.y), t);
+    vec3 extent = min(at + 1.0, layer.grid.xyz - 1.0) - max(at - 1.0, vec3(0.0));
+    normal = normalOf(extent, above, below);
+    return mix(alongX.y, alongX.z, t.x);
 }

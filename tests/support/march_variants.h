@@ -19,6 +19,7 @@ inline volume::MarchTraits marchTraits(const scene::RayModelRow& row, int varian
             .texels = static_cast<volume::VoxelTexels>(variant / 3 % 4),
             .filterInHardware = bit(3),
             .skipsBricks = bit(1),
+            .byDistance = bit(2) != bit(3),
             .earlyStop = bit(2),
             .lit = bit(4) && row.model == scene::RayModel::kIsosurface,
             .shaded = bit(2) && row.model == scene::RayModel::kVolume,

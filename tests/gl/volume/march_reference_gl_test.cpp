@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
-#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -15,6 +14,7 @@
 #include "tests/support/phantoms.h"
 #include "tests/support/render_test.h"
 #include "tests/support/volume_reference.h"
+#include "tests/support/without_skipping.h"
 
 namespace volcast {
 namespace {
@@ -83,18 +83,6 @@ protected:
             }
         }
         EXPECT_LT(worst, tolerance);
-    }
-
-    static std::unique_ptr<scene::Renderer> rendererWithoutSkipping() {
-        return support::must(scene::Renderer::create(
-            device(), [](std::string_view path) -> std::optional<std::string> {
-                auto text = shading::embeddedChunks()(path);
-                const std::string condition = "if (!kSkipBricks)";
-                if (const auto at = text->find(condition); at != std::string::npos) {
-                    text->replace(at, condition.size(), "if (true)");
-                }
-                return text;
-            }));
     }
 
     /// C and rho of all values, added up.
@@ -299,7 +287,7 @@ TEST_F(MarchReference, SkippingEmptyBricksChangesNoIntegrator) {
 }
 
 TEST_F(MarchReference, SkippingBricksChangesNoModel) {
-    const auto withoutSkipping = rendererWithoutSkipping();
+    const auto withoutSkipping = support::rendererWithoutSkipping(device());
     withoutSkipping->addDataset("volume", volume_);
     scene_.layers[0].levels.values = {20.0F, 45.0F, 70.0F};
     int skipping = 0;
@@ -323,7 +311,7 @@ TEST_F(MarchReference, SkippingBricksChangesNoModel) {
 // Beside a single voxel of 100 tricubic values are below 0, and between two above 100: what only
 // such values show must not be passed over with their bricks, whose voxels show nothing.
 TEST_F(MarchReference, SkippingBricksSeesTheOvershootOfTricubicValues) {
-    const auto withoutSkipping = rendererWithoutSkipping();
+    const auto withoutSkipping = support::rendererWithoutSkipping(device());
     const data::Volume spikes = support::volumeOf({.size = {50, 50, 50}}, [](const glm::dvec3& p) {
         const glm::ivec3 i{p};
         const bool plate = i.x < 25 && (i.z == 24 || i.z == 25);
