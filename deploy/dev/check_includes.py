@@ -22,7 +22,8 @@ MESSAGES = [f"renderer/worker/{part}" for part in
             ("channel", "exit_codes", "frame_message", "measure_message", "pick_message", "scene_json",
              "scene_message", "slot_layout", "user_shader_message")]
 WORKERS = MODEL + MESSAGES + ["renderer/plan", MEASUREMENT, "server/workers"]
-SESSION = WORKERS + ["protocol", "server/video", "server/session", "server/settings"]
+SESSION = WORKERS + ["protocol", "server/video", "server/metrics", "server/session",
+                     "server/settings"]
 
 ALLOWED = {
     "renderer/base": BASE,
@@ -47,8 +48,10 @@ ALLOWED = {
     "protocol": BASE + ["protocol"],
     "server/video": BASE + ["server/video"],
     "server/workers": WORKERS,
+    "server/metrics": BASE + ["protocol", "server/metrics"],
     "server/session": SESSION,
     "server/net": SESSION + ["server/net"],
+    "server/load": SESSION + ["server/net/client_loop", "server/load"],
     "server/commands": MODEL + MESSAGES + ["renderer/plan", MEASUREMENT, "protocol", "server"],
     "server/settings": BASE + ["server"],
     "server/main": ["server/commands"],
@@ -63,6 +66,7 @@ HOMES = {  # what an angle include names -> who may name it
     r"EGL/": ["renderer/gpu"],
     r"epoxy/": GL_HOMES,
     r"tetgen|OpenImageIO": ["renderer/data/load", "tests"],
+    r"prometheus/": ["server/metrics"],
     r"turbojpeg|libdeflate": ["server/video", "tests"],
     r"seccomp|linux/landlock": ["renderer/base"],
 }

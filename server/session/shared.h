@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <string>
 
+#include "server/metrics/metrics.h"
 #include "server/session/catalogue.h"
 #include "server/session/encode_pool.h"
 #include "server/session/view_router.h"
@@ -14,6 +15,7 @@ namespace volcast::session {
 struct SessionLimits {
     std::uint32_t maxViews = 16;
     std::uint32_t maxMessageBytes = 64 * 1024;
+    std::uint32_t maxMessagesPerS = 4000;
     std::uint64_t maxViewPixels = std::uint64_t{7680} * 4320;  ///< Of one view.
     std::size_t maxWaitingMessages = 1024;  ///< Replies that the client has not read yet.
 };
@@ -27,6 +29,7 @@ struct Shared {
     SessionLimits limits;
     std::string server;     ///< Name and version.
     std::string sourceUrl;  ///< Where the source of this server is.
+    metrics::Metrics metrics = {};
 };
 
 }  // namespace volcast::session

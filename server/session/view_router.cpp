@@ -19,6 +19,11 @@ void ViewRouter::remove(std::uint64_t view) {
     targets_.erase(view);
 }
 
+std::size_t ViewRouter::size() {
+    const std::lock_guard lock{mutex_};
+    return targets_.size();
+}
+
 ViewTarget ViewRouter::find(std::uint64_t view) {
     const std::lock_guard lock{mutex_};
     const auto found = targets_.find(view);

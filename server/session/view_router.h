@@ -27,6 +27,7 @@ public:
     std::uint64_t reserve();
     void add(std::uint64_t view, ViewTarget target);
     void remove(std::uint64_t view);
+    [[nodiscard]] std::size_t size();
     /// The events to create the render service with; this router must outlive it.
     workers::RenderEvents events();
 

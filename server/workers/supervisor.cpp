@@ -298,6 +298,7 @@ void Supervisor::start(Worker& worker) {
     auto started = WorkerProcess::start(settings_, cacheFolder_);
     if (!started) return startFailed(started.error());
     worker = *std::move(started);
+    ++starts_;
     for (const auto& [id, packed] : datasets_) {
         worker->addDataset(id, packed, settings_.datasetDeadline);
     }
@@ -381,6 +382,7 @@ RenderStatus Supervisor::status() const {
     status.ready = main_ && main_->ready();
     status.generation = generation_;
     status.losses = losses_;
+    status.starts = starts_;
     status.spareReady = spare_ && spare_->ready() && spare_->warm();
     status.workerPid = main_ ? main_->pid() : 0;
     if (status.ready) {
