@@ -1,5 +1,6 @@
 #include "server/commands/load_command.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 
@@ -47,8 +48,14 @@ int complain(const Error& error) {
 std::vector<std::string> serverArguments(const LoadOptions& options) {
     unsigned clients = 0;
     for (const load::Group& group : options.settings.groups) clients += group.clients;
-    std::vector<std::string> words{"--log-level", "error", "--max-clients",
-                                   std::to_string(std::min(clients + 8, 10'000U))};
+    std::vector<std::string> words{"--log-level", "error"};
+    const bool limited = std::ranges::any_of(options.serverArguments, [](const std::string& word) {
+        return word.starts_with("--max-clients");
+    });
+    if (!limited) {
+        words.insert(words.end(),
+                     {"--max-clients", std::to_string(std::min(clients + 8, 10'000U))});
+    }
     words.insert(words.end(), options.serverArguments.begin(), options.serverArguments.end());
     if (!options.dataFolder.empty()) words.push_back(options.dataFolder);
     return words;

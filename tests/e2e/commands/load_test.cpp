@@ -29,9 +29,8 @@ double number(const json::value& object, const char* key) {
 }
 
 TEST(Load, EachKindOfClientReportsWhatItSaw) {
-    const Outcome ran =
-        runVolcast(small({"--clients", "orbit,map,model,join=2,idle,slow,shaped", "--json",
-                          "--duration", "2", "--rate", "10", "--max-errors", "0"}));
+    const Outcome ran = runVolcast(small({"--clients", "orbit,map,model,join=2,idle,slow,shaped",
+                                          "--json", "--rate", "10", "--max-errors", "0"}));
     ASSERT_EQ(ran.exitCode, 0) << ran.err;
     const json::object report = parsed(ran);
     EXPECT_EQ(number(report, "views"), 8);
