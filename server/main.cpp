@@ -4,6 +4,7 @@
 #include "server/commands/accuracy_command.h"
 #include "server/commands/doctor_command.h"
 #include "server/commands/import_command.h"
+#include "server/commands/load_command.h"
 #include "server/commands/render_command.h"
 #include "server/commands/serve_command.h"
 
@@ -16,6 +17,7 @@ int main(int argc, char** argv) {  // NOLINT(bugprone-exception-escape): our bug
     volcast::commands::addRenderCommand(app, exitCode);
     volcast::commands::addAccuracyCommand(app, exitCode);
     volcast::commands::addImportCommand(app, exitCode);
+    volcast::commands::addLoadCommand(app, exitCode);
     volcast::commands::addDoctorCommand(app, exitCode);
     try {
         app.parse(argc, argv);

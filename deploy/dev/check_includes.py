@@ -22,7 +22,8 @@ MESSAGES = [f"renderer/worker/{part}" for part in
             ("channel", "exit_codes", "fault_names", "frame_message", "measure_message", "pick_message",
              "scene_json", "scene_message", "slot_layout", "user_shader_message")]
 WORKERS = MODEL + MESSAGES + ["renderer/plan", MEASUREMENT, "server/workers"]
-SESSION = WORKERS + ["protocol", "server/video", "server/session", "server/settings"]
+SESSION = WORKERS + ["protocol", "server/video", "server/metrics", "server/session",
+                     "server/settings"]
 
 ALLOWED = {
     "renderer/base": BASE,
@@ -47,8 +48,10 @@ ALLOWED = {
     "protocol": BASE + ["protocol"],
     "server/video": BASE + ["server/video"],
     "server/workers": WORKERS,
+    "server/metrics": BASE + ["protocol", "server/metrics"],
     "server/session": SESSION,
     "server/net": SESSION + ["server/net"],
+    "server/load": SESSION + ["server/net/client_loop", "server/load"],
     "server/commands": MODEL + MESSAGES + ["renderer/plan", MEASUREMENT, "protocol", "server"],
     "server/settings": BASE + ["server"],
     "server/main": ["server/commands"],
@@ -66,6 +69,7 @@ HOMES = {  # what an angle include names -> who may name it
     r"tetgen|OpenImageIO": ["renderer/data/load", "tests"],
     r"turbojpeg|libdeflate|webp/|xxhash|libav|libsw": ["server/video", "tests"],
     r"openssl/": ["server/session", "server/net", "tests"],
+    r"prometheus/": ["server/metrics"],
     r"seccomp|linux/landlock": ["renderer/base"],
 }
 INCLUDE = re.compile(r'^\s*#include\s+([<"])([^>"]+)[>"]', re.M)

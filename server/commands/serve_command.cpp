@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <thread>
 
@@ -150,6 +151,11 @@ void addLimits(CLI::App& command, ServeSettings& settings) {
             "So long a view waits for people who lost their connection (default 60)")
         ->check(CLI::Range(1, 30 * 24 * 3600));
     command
+        .add_option("--max-messages-per-s", settings.limits.maxMessagesPerS,
+                    "Messages a second of one client, and as many at once; more end it")
+        ->check(CLI::Range(1U, 1'000'000U))
+        ->capture_default_str();
+    command
         .add_option_function<std::int64_t>(
             "--frame-deadline-ms",
             [&settings](std::int64_t ms) {
@@ -230,8 +236,20 @@ void addServeCommand(CLI::App& app, int& exitCode) {
         ->envname("VOLCAST_GPU");
     command.add_option("--client-dir", settings->listen.clientFolder,
                        "Built web client; none: web_client beside the build's folder");
+    command.add_option("--tls-cert", settings->listen.tlsCert,
+                       "PEM file with the certificate chain: HTTPS and wss, TLS 1.2 and later");
+    command.add_option("--tls-key", settings->listen.tlsKey, "PEM file with its private key");
     command.add_option("--allow-origin", settings->listen.allowedOrigins,
                        "Further web origins that may connect, such as https://lab.example.org");
+    command
+        .add_option("--metrics", settings->listen.metricsFor,
+                    "Who may read /metrics: off, local (this machine, not through a proxy), all")
+        ->transform(CLI::CheckedTransformer(
+            std::map<std::string, net::MetricsFor>{{"off", net::MetricsFor::kNobody},
+                                                   {"local", net::MetricsFor::kThisMachine},
+                                                   {"all", net::MetricsFor::kEverybody}},
+            CLI::ignore_case))
+        ->default_str("local");
     command.add_option("--source-url", settings->sourceUrl,
                        "Where users of this server get its source (AGPL), told to clients");
     command.add_option("--log-level", settings->logLevel, "debug, info, warning, error or off")

@@ -3,6 +3,7 @@
 #include <string>
 #include <utility>
 
+#include "server/session/metrics_text.h"
 #include "server/session/readiness.h"
 
 namespace volcast::net {
@@ -53,7 +54,7 @@ Response HttpAnswers::plain(const Request& request, http::status status, std::st
     return make(request, status, std::move(text) + "\n", "text/plain; charset=utf-8");
 }
 
-Response HttpAnswers::answer(const Request& request) const {
+Response HttpAnswers::answer(const Request& request, bool fromLoopback) const {
     if (request.method() != http::verb::get && request.method() != http::verb::head) {
         Response refusal =
             plain(request, http::status::method_not_allowed,
@@ -72,6 +73,8 @@ Response HttpAnswers::answer(const Request& request) const {
         response =
             make(request, status.ready ? http::status::ok : http::status::service_unavailable,
                  session::readinessJson(status), "application/json");
+    } else if (path == "/metrics") {
+        response = metrics(request, fromLoopback);
     } else if (path == "/v1/ws") {
         response = plain(request, http::status::upgrade_required,
                          "this is the WebSocket; connect with subprotocol volcast.v1");
@@ -80,6 +83,21 @@ Response HttpAnswers::answer(const Request& request) const {
         response = file(request);
     }
     return request.method() == http::verb::head ? withoutBody(std::move(response)) : response;
+}
+
+/// What a proxy on this machine passes on comes from the loopback, too, but says so.
+Response HttpAnswers::metrics(const Request& request, bool fromLoopback) const {
+    if (metricsFor_ == MetricsFor::kNobody) {
+        return plain(request, http::status::not_found, "there are no metrics (--metrics off)");
+    }
+    const bool passedOn = request.find("X-Forwarded-For") != request.end() ||
+                          request.find(http::field::forwarded) != request.end();
+    if (metricsFor_ == MetricsFor::kThisMachine && (!fromLoopback || passedOn)) {
+        return plain(request, http::status::forbidden,
+                     "metrics are for this machine only (--metrics all: for everybody)");
+    }
+    return make(request, http::status::ok, session::metricsText(shared_),
+                "text/plain; version=0.0.4; charset=utf-8");
 }
 
 Response HttpAnswers::file(const Request& request) const {

@@ -2,6 +2,7 @@
 
 #include "server/net/beast.h"
 #include "server/net/origin.h"
+#include "server/net/server.h"
 #include "server/net/static_files.h"
 #include "server/session/shared.h"
 
@@ -10,19 +11,22 @@ namespace volcast::net {
 /// Answers everything that is no WebSocket: files, /healthz, /readyz, refusals.
 class HttpAnswers {
 public:
-    HttpAnswers(const StaticFiles& files, const session::Shared& shared)
-        : files_{files}, shared_{shared} {}
+    HttpAnswers(const StaticFiles& files, session::Shared& shared, MetricsFor metricsFor)
+        : files_{files}, shared_{shared}, metricsFor_{metricsFor} {}
 
-    [[nodiscard]] Response answer(const Request& request) const;
+    /// `fromLoopback`: the connection comes from this machine.
+    [[nodiscard]] Response answer(const Request& request, bool fromLoopback) const;
     /// A clear text with security headers.
     [[nodiscard]] static Response plain(const Request& request, http::status status,
                                         std::string text);
 
 private:
     [[nodiscard]] Response file(const Request& request) const;
+    [[nodiscard]] Response metrics(const Request& request, bool fromLoopback) const;
 
     const StaticFiles& files_;
-    const session::Shared& shared_;
+    session::Shared& shared_;
+    MetricsFor metricsFor_;
 };
 
 }  // namespace volcast::net

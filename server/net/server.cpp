@@ -6,6 +6,7 @@
 #include <exception>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 #include <utility>
@@ -14,6 +15,7 @@
 
 #include "renderer/base/printable.h"
 #include "server/net/http_answers.h"
+#include "server/net/tls.h"
 #include "server/net/web_socket.h"
 
 namespace volcast::net {
@@ -22,6 +24,7 @@ namespace {
 
 constexpr std::chrono::seconds kHeaderWithin{5};
 constexpr std::chrono::seconds kKeepAlive{15};
+constexpr std::chrono::seconds kTlsEndWithin{2};
 constexpr std::chrono::milliseconds kDrainWithin{5000};
 constexpr std::chrono::milliseconds kPlainDrain{100};  ///< For answers being sent.
 constexpr std::uint32_t kHeaderLimit = 8192;
@@ -32,9 +35,10 @@ bool offersSubprotocol(const Request& request) {
     return offered.exists(kSubprotocol);
 }
 
-std::string urlOf(const std::string& host, std::uint16_t port) {
+std::string urlOf(const std::string& host, std::uint16_t port, bool tls) {
     const bool ipv6 = host.find(':') != std::string::npos;
-    return "http://" + (ipv6 ? "[" + host + "]" : host) + ":" + std::to_string(port) + "/";
+    return (tls ? "https://" : "http://") + (ipv6 ? "[" + host + "]" : host) + ":" +
+           std::to_string(port) + "/";
 }
 
 class BeastServer final : public Server {
@@ -43,18 +47,21 @@ public:
         : settings_{std::move(settings)},
           shared_{shared},
           files_{settings_.clientFolder},
-          answers_{files_, shared_} {}
+          answers_{files_, shared_, settings_.metricsFor} {}
 
     Result<void> listen();
     [[nodiscard]] std::string url() const override {
-        return urlOf(settings_.host, acceptor_.local_endpoint().port());
+        return urlOf(settings_.host, acceptor_.local_endpoint().port(), tls_ != nullptr);
     }
     void run() override;
 
 private:
     asio::awaitable<void> acceptAll();
-    asio::awaitable<void> serve(Stream stream);
-    asio::awaitable<void> serveWebSocket(Stream stream, Request request);
+    asio::awaitable<void> serveTls(Stream stream);
+    template <class Layer>
+    asio::awaitable<void> serve(Layer stream);
+    template <class Layer>
+    asio::awaitable<void> serveWebSocket(Layer stream, Request request);
     [[nodiscard]] std::optional<Response> refusal(const Request& request) const;
     void onSignal();
     void stopWithin(std::chrono::milliseconds limit);
@@ -70,6 +77,7 @@ private:
     asio::steady_timer drained_{control_};
     asio::steady_timer pause_{control_};
     OriginRule origins_;
+    std::unique_ptr<asio::ssl::context> tls_;  ///< None: plain TCP.
     std::atomic<unsigned> connections_ = 0;
     std::atomic<unsigned> webSockets_ = 0;
     std::atomic<bool> draining_ = false;
@@ -80,8 +88,14 @@ private:
 
 Result<void> BeastServer::listen() {
     const auto failed = [this](const std::string& why) {
-        return fail(ErrorCode::kIo, urlOf(settings_.host, settings_.port) + ": " + why);
+        return fail(ErrorCode::kIo,
+                    urlOf(settings_.host, settings_.port, tls_ != nullptr) + ": " + why);
     };
+    if (!settings_.tlsCert.empty() || !settings_.tlsKey.empty()) {
+        auto made = tlsContext(settings_.tlsCert, settings_.tlsKey);
+        if (!made) return made.error();
+        tls_ = std::move(*made);
+    }
     boost::system::error_code error;
     const std::string host = settings_.host == "localhost" ? "127.0.0.1" : settings_.host;
     const auto address = asio::ip::make_address(host, error);
@@ -157,7 +171,8 @@ asio::awaitable<void> BeastServer::acceptAll() {
         if (connections_ >= settings_.maxClients + kPlainConnections) continue;
         ++connections_;
         const Strand strand = socket.get_executor();
-        asio::co_spawn(strand, serve(Stream{std::move(socket)}),
+        Stream stream{std::move(socket)};
+        asio::co_spawn(strand, tls_ ? serveTls(std::move(stream)) : serve(std::move(stream)),
                        [this](const std::exception_ptr& thrown) {
                            if (thrown) spdlog::error("event=connection_threw");
                            --connections_;
@@ -165,13 +180,28 @@ asio::awaitable<void> BeastServer::acceptAll() {
     }
 }
 
-asio::awaitable<void> BeastServer::serve(Stream stream) {
+asio::awaitable<void> BeastServer::serveTls(Stream stream) {
+    TlsStream tls{std::move(stream), *tls_};
+    beast::get_lowest_layer(tls).expires_after(kHeaderWithin);
+    const auto [error] = co_await tls.async_handshake(asio::ssl::stream_base::server, kAsTuple);
+    if (error) {
+        spdlog::debug(R"(event=tls_refused error="{}")", error.message());
+        co_return;
+    }
+    co_await serve(std::move(tls));
+}
+
+template <class Layer>
+asio::awaitable<void> BeastServer::serve(Layer stream) {
     beast::flat_buffer buffer;
     std::chrono::seconds patience = kHeaderWithin;
+    boost::system::error_code unknown;
+    const auto peer = beast::get_lowest_layer(stream).socket().remote_endpoint(unknown).address();
+    const bool fromLoopback = !unknown && peer.is_loopback();
     while (!draining_) {
         http::request_parser<http::empty_body> parser;
         parser.header_limit(kHeaderLimit);
-        stream.expires_after(patience);
+        beast::get_lowest_layer(stream).expires_after(patience);
         const auto [error, bytes] =
             co_await http::async_read_header(stream, buffer, parser, kAsTuple);
         if (error == http::error::header_limit) {
@@ -189,7 +219,7 @@ asio::awaitable<void> BeastServer::serve(Stream stream) {
             co_await serveWebSocket(std::move(stream), std::move(request));
             co_return;
         }
-        Response response = refused ? std::move(*refused) : answers_.answer(request);
+        Response response = refused ? std::move(*refused) : answers_.answer(request, fromLoopback);
         const bool more = response.keep_alive() && !parser.chunked() &&
                           request[http::field::content_length].empty();
         response.keep_alive(more);
@@ -197,8 +227,12 @@ asio::awaitable<void> BeastServer::serve(Stream stream) {
         if (failed || !more) break;
         patience = kKeepAlive;
     }
+    if constexpr (std::is_same_v<Layer, TlsStream>) {
+        beast::get_lowest_layer(stream).expires_after(kTlsEndWithin);
+        co_await stream.async_shutdown(kAsTuple);
+    }
     boost::system::error_code ignored;
-    stream.socket().shutdown(Tcp::socket::shutdown_both, ignored);
+    beast::get_lowest_layer(stream).socket().shutdown(Tcp::socket::shutdown_both, ignored);
 }
 
 std::optional<Response> BeastServer::refusal(const Request& request) const {
@@ -227,18 +261,21 @@ std::optional<Response> BeastServer::refusal(const Request& request) const {
     return std::nullopt;
 }
 
-asio::awaitable<void> BeastServer::serveWebSocket(Stream stream, Request request) {
+template <class Layer>
+asio::awaitable<void> BeastServer::serveWebSocket(Layer stream, Request request) {
     ++webSockets_;
     std::uint64_t number = 0;
     std::shared_ptr<WebSocket> socket;
     {
         const std::lock_guard lock{mutex_};
         number = ++lastNumber_;
-        socket = std::make_shared<WebSocket>(std::move(stream), shared_, number);
+        socket = makeWebSocket(std::move(stream), shared_, number);
         sockets_[number] = socket;
     }
     spdlog::info("event=connected connection={}", number);
+    shared_.metrics.connected();
     co_await socket->serve(request);
+    shared_.metrics.disconnected();
     {
         const std::lock_guard lock{mutex_};
         sockets_.erase(number);

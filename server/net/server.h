@@ -11,14 +11,19 @@
 
 namespace volcast::net {
 
+/// Who may read /metrics.
+enum class MetricsFor { kNobody, kThisMachine, kEverybody };
+
 /// Where the server listens and what it lets in.
 struct ListenSettings {
     std::string host = "127.0.0.1";
     std::uint16_t port = 8080;  ///< 0: any free one.
     std::string clientFolder;   ///< The built web client.
     std::vector<std::string> allowedOrigins;
-    unsigned maxClients = 64;  ///< WebSockets at once.
-    unsigned threads = 2;      ///< For sockets; encoding has its own.
+    std::string tlsCert, tlsKey;  ///< PEM files; empty: plain HTTP.
+    unsigned maxClients = 64;     ///< WebSockets at once.
+    unsigned threads = 2;         ///< For sockets; encoding has its own.
+    MetricsFor metricsFor = MetricsFor::kThisMachine;
 };
 
 /// HTTP/1.1 and WebSocket on one port: bytes in and out of sessions, the web client's files, and
@@ -27,7 +32,8 @@ class Server {
 public:
     /// Listens. `shared` must outlive the server.
     ///
-    /// Errors: kIo (the port is taken or not permitted), kInvalidArgument (no such address).
+    /// Errors: kIo (the port is taken or not permitted), kInvalidArgument (no such address), as
+    /// tlsContext().
     static Result<std::unique_ptr<Server>> create(ListenSettings settings, session::Shared& shared);
     virtual ~Server() = default;
     Server(const Server&) = delete;

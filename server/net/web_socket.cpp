@@ -9,6 +9,8 @@
 
 #include <spdlog/spdlog.h>
 
+#include "server/session/session.h"
+
 namespace volcast::net {
 
 namespace {
@@ -19,6 +21,7 @@ constexpr std::chrono::seconds kHandshake{30};
 constexpr std::chrono::seconds kIdle{60};  ///< Pinged at half of it.
 constexpr std::chrono::seconds kStuckWrite{20};
 constexpr std::chrono::seconds kCloseWithin{3};
+const session::Closing kGoingDown{.code = 1012, .reason = "the server is going down"};
 constexpr std::size_t kSlice = std::size_t{64} * 1024;
 constexpr int kNotSentLowat = 128 * 1024;
 
@@ -30,15 +33,43 @@ void setSocketOptions(Stream& stream) {
                  sizeof(kNotSentLowat));
 }
 
-}  // namespace
+/// Over TCP or TLS. Lives on one strand; kept alive by its two coroutines, which end together.
+template <class Layer>
+class SocketOver final : public WebSocket, public std::enable_shared_from_this<SocketOver<Layer>> {
+public:
+    SocketOver(Layer stream, session::Shared& shared, std::uint64_t number);
+    asio::awaitable<void> serve(const Request& request) override;
+    void drain() override;
+    void abandon() override { session_.reset(); }
 
-WebSocket::WebSocket(Stream stream, session::Shared& shared, std::uint64_t number)
+private:
+    asio::awaitable<void> readAll();
+    asio::awaitable<void> writeAll();
+    /// Sends one message in slices; false where the connection is over.
+    asio::awaitable<bool> write(const session::Outgoing& message);
+    asio::awaitable<void> close(session::Closing closing);
+    void wake() { wake_.cancel(); }
+    /// Closes the socket hard unless `watch_` is cancelled within `limit`.
+    void watch(std::chrono::seconds limit);
+
+    websocket::stream<Layer> socket_;
+    session::Shared& shared_;
+    const std::uint64_t number_;
+    asio::steady_timer wake_;   ///< The writer sleeps on it; cancelled when there is news.
+    asio::steady_timer watch_;  ///< Runs while a write or close is under way.
+    std::shared_ptr<session::Session> session_;
+    bool over_ = false;
+    bool draining_ = false;
+};
+
+template <class Layer>
+SocketOver<Layer>::SocketOver(Layer stream, session::Shared& shared, std::uint64_t number)
     : socket_{std::move(stream)},
       shared_{shared},
       number_{number},
       wake_{socket_.get_executor()},
       watch_{socket_.get_executor()} {
-    socket_.next_layer().expires_never();  // The WebSocket has timeouts of its own.
+    beast::get_lowest_layer(socket_).expires_never();  // The WebSocket has timeouts of its own.
     websocket::stream_base::timeout timeout{};
     timeout.handshake_timeout = kHandshake;
     timeout.idle_timeout = kIdle;
@@ -50,11 +81,12 @@ WebSocket::WebSocket(Stream stream, session::Shared& shared, std::uint64_t numbe
     }));
     socket_.read_message_max(shared.limits.maxMessageBytes);
     socket_.auto_fragment(false);
-    setSocketOptions(socket_.next_layer());
+    setSocketOptions(beast::get_lowest_layer(socket_));
 }
 
-asio::awaitable<void> WebSocket::serve(const Request& request) {
-    const auto self = shared_from_this();
+template <class Layer>
+asio::awaitable<void> SocketOver<Layer>::serve(const Request& request) {
+    const auto self = this->shared_from_this();
     const auto [error] = co_await socket_.async_accept(request, kAsTuple);
     if (error) co_return;
     session_ = session::Session::create(
@@ -62,9 +94,10 @@ asio::awaitable<void> WebSocket::serve(const Request& request) {
         {.post = [executor = socket_.get_executor()](
                      std::function<void()> act) { asio::post(executor, std::move(act)); },
          .wake =
-             [weak = weak_from_this()] {
+             [weak = this->weak_from_this()] {
                  if (const auto alive = weak.lock()) alive->wake();
              }});
+    if (draining_) session_->end(kGoingDown);
     asio::co_spawn(
         socket_.get_executor(), [self]() { return self->writeAll(); }, asio::detached);
     co_await readAll();
@@ -74,7 +107,8 @@ asio::awaitable<void> WebSocket::serve(const Request& request) {
     spdlog::info("event=disconnected connection={}", number_);
 }
 
-asio::awaitable<void> WebSocket::readAll() {
+template <class Layer>
+asio::awaitable<void> SocketOver<Layer>::readAll() {
     beast::flat_buffer buffer;
     while (true) {
         const auto [error, bytes] = co_await socket_.async_read(buffer, kAsTuple);
@@ -84,6 +118,7 @@ asio::awaitable<void> WebSocket::readAll() {
             co_return;
         }
         const auto data = buffer.cdata();
+        shared_.metrics.received(data.size());
         const auto form = socket_.got_text() ? session::Form::kJson : session::Form::kBinary;
         session_->receive({static_cast<const std::byte*>(data.data()), data.size()}, form,
                           Clock::now());
@@ -92,8 +127,9 @@ asio::awaitable<void> WebSocket::readAll() {
     }
 }
 
-asio::awaitable<void> WebSocket::writeAll() {
-    const auto self = shared_from_this();
+template <class Layer>
+asio::awaitable<void> SocketOver<Layer>::writeAll() {
+    const auto self = this->shared_from_this();
     while (!over_) {
         session_->tick(Clock::now());
         bool alive = true;
@@ -111,7 +147,8 @@ asio::awaitable<void> WebSocket::writeAll() {
     beast::get_lowest_layer(socket_).close();
 }
 
-asio::awaitable<bool> WebSocket::write(const session::Outgoing& message) {
+template <class Layer>
+asio::awaitable<bool> SocketOver<Layer>::write(const session::Outgoing& message) {
     socket_.text(message.text);
     // A slice is a fragment: what matters is that a reader who stands still is noticed.
     static const std::vector<std::byte> kNothing;
@@ -137,10 +174,12 @@ asio::awaitable<bool> WebSocket::write(const session::Outgoing& message) {
         if (error || over_) co_return false;
         if (total == 0) break;
     }
+    shared_.metrics.sent(total);
     co_return true;
 }
 
-asio::awaitable<void> WebSocket::close(session::Closing closing) {
+template <class Layer>
+asio::awaitable<void> SocketOver<Layer>::close(session::Closing closing) {
     watch(kCloseWithin);
     spdlog::info(R"(event=closing connection={} code={} reason="{}")", number_, closing.code,
                  closing.reason);
@@ -151,9 +190,10 @@ asio::awaitable<void> WebSocket::close(session::Closing closing) {
     beast::get_lowest_layer(socket_).close();
 }
 
-void WebSocket::watch(std::chrono::seconds limit) {
+template <class Layer>
+void SocketOver<Layer>::watch(std::chrono::seconds limit) {
     watch_.expires_after(limit);
-    watch_.async_wait([weak = weak_from_this()](boost::system::error_code error) {
+    watch_.async_wait([weak = this->weak_from_this()](boost::system::error_code error) {
         const auto self = weak.lock();
         if (error || !self) return;
         spdlog::warn("event=stuck connection={}", self->number_);
@@ -161,13 +201,28 @@ void WebSocket::watch(std::chrono::seconds limit) {
     });
 }
 
-void WebSocket::drain() {
-    asio::post(socket_.get_executor(), [weak = weak_from_this()] {
+template <class Layer>
+void SocketOver<Layer>::drain() {
+    asio::post(socket_.get_executor(), [weak = this->weak_from_this()] {
         const auto self = weak.lock();
-        if (!self || !self->session_) return;
-        self->session_->end({.code = 1012, .reason = "the server is going down"});
+        if (!self) return;
+        self->draining_ = true;  // Also of one whose upgrade is under way.
+        if (!self->session_) return;
+        self->session_->end(kGoingDown);
         self->wake();
     });
+}
+
+}  // namespace
+
+std::shared_ptr<WebSocket> makeWebSocket(Stream stream, session::Shared& shared,
+                                         std::uint64_t number) {
+    return std::make_shared<SocketOver<Stream>>(std::move(stream), shared, number);
+}
+
+std::shared_ptr<WebSocket> makeWebSocket(TlsStream stream, session::Shared& shared,
+                                         std::uint64_t number) {
+    return std::make_shared<SocketOver<TlsStream>>(std::move(stream), shared, number);
 }
 
 }  // namespace volcast::net

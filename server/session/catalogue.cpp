@@ -159,6 +159,13 @@ bool Catalogue::importing() const {
     return running_ > 0;
 }
 
+ImportCounts Catalogue::importCounts() const {
+    const std::lock_guard lock{mutex_};
+    ImportCounts counts = counts_;
+    counts.waiting = queue_.size();
+    return counts;
+}
+
 std::uint64_t Catalogue::subscribe(Listener listener) {
     const std::lock_guard lock{mutex_};
     listeners_.emplace(++lastListener_, std::move(listener));
@@ -199,6 +206,7 @@ void Catalogue::importOne(const std::string& id) {
         request, desc_.imports,
         [&](const std::string& stage, double fraction) { progressed(id, stage, fraction); });
     const std::lock_guard lock{mutex_};
+    ++(imported ? counts_.good : counts_.failed);
     Entry& entry = entries_.at(id);
     if (imported) {
         spdlog::info(R"(event=imported dataset="{}" format="{}" ms={:.0f} peak_mb={:.0f})",

@@ -33,6 +33,11 @@ struct CatalogueDesc {
     Importer importer = workers::runImport;
 };
 
+struct ImportCounts {
+    std::uint64_t good = 0, failed = 0;  ///< Since the start.
+    std::size_t waiting = 0;             ///< That no thread has begun.
+};
+
 /// What a view has to know of one dataset.
 struct DatasetStanding {
     bool loaded = false;        ///< Can be drawn now.
@@ -77,6 +82,7 @@ public:
     /// Summaries of those of `ids` that are loaded.
     [[nodiscard]] scene::Summaries summaries(const std::vector<std::string>& ids) const;
     [[nodiscard]] bool importing() const;
+    [[nodiscard]] ImportCounts importCounts() const;
 
     /// `listener` hears of every change, under a lock: it must not call back. Returns its number.
     std::uint64_t subscribe(Listener listener);
@@ -112,6 +118,7 @@ private:
     std::uint64_t lastListener_ = 0;
     std::deque<std::string> queue_;
     unsigned running_ = 0;
+    ImportCounts counts_;
     bool stopping_ = false;
     std::vector<std::thread> threads_;
 };

@@ -30,6 +30,11 @@ void EncodePool::run(std::function<void()> job) {
     wake_.notify_one();
 }
 
+std::size_t EncodePool::waiting() {
+    const std::lock_guard lock{mutex_};
+    return jobs_.size();
+}
+
 void EncodePool::work() {
     while (true) {
         std::function<void()> job;

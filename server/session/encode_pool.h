@@ -24,6 +24,8 @@ public:
 
     /// Runs `job` on one of the threads; jobs must not throw. Any thread.
     void run(std::function<void()> job);
+    /// Jobs that no thread has begun.
+    [[nodiscard]] std::size_t waiting();
 
 private:
     void work();

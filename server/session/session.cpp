@@ -34,7 +34,10 @@ std::shared_ptr<Session> Session::create(Shared& shared, std::uint64_t number, S
 }
 
 Session::Session(Shared& shared, std::uint64_t number, SessionHooks hooks)
-    : shared_{shared}, number_{number}, hooks_{std::move(hooks)} {}
+    : shared_{shared},
+      number_{number},
+      hooks_{std::move(hooks)},
+      rate_{shared.limits.maxMessagesPerS} {}
 
 void Session::start() {
     subscription_ = shared_.catalogue.subscribe(
@@ -55,8 +58,14 @@ Session::~Session() {
 
 void Session::receive(std::span<const std::byte> bytes, Form form, TimePoint now) {
     if (closing_) return;
-    const auto message = readMessage(bytes, form);
     if (!greeted_) form_ = form;
+    if (!rate_.take(now)) {
+        send(errorMessage(
+            v1::ERROR_CODE_LIMIT_EXCEEDED,
+            "more than " + std::to_string(shared_.limits.maxMessagesPerS) + " messages a second"));
+        return end({kPolicyViolation, "too many messages a second"});
+    }
+    const auto message = readMessage(bytes, form);
     if (!message) {
         send(errorMessage(v1::ERROR_CODE_MALFORMED_MESSAGE, message.error().message));
         if (!greeted_) end({kPolicyViolation, "malformed hello"});
@@ -202,6 +211,8 @@ std::optional<Outgoing> Session::next(TimePoint now) {
         if (at == seats_.end()) at = seats_.begin();
         auto frame = at->second.view->takeFrame(at->second.viewer, now);
         if (!frame) continue;
+        shared_.metrics.frameSent(frame->header, frame->payload->size(),
+                                  frame->header.pace().under_way());
         lastServed_ = at->first;
         return Outgoing{.text = false,
                         .head = protocol::encodeFrameHead(at->first, frame->sequence, frame->header,
@@ -240,6 +251,7 @@ void Session::send(const v1::ServerMessage& message) {
                      waiting_.size());
         return end({kPolicyViolation, "replies are not being read"});
     }
+    if (message.has_error()) shared_.metrics.refused(message.error().code());
     waiting_.push_back(message);
 }
 

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "server/session/message_rate.h"
 #include "server/session/shared.h"
 #include "server/session/shared_view.h"
 #include "server/session/views.h"
@@ -129,6 +130,7 @@ private:
     std::uint32_t lastServed_ = 0;         ///< View whose frame was sent last; views take turns.
     std::deque<v1::ServerMessage> waiting_;
     std::optional<Closing> closing_;
+    MessageRate rate_;
 };
 
 }  // namespace volcast::session

@@ -84,12 +84,14 @@ void Session::ack(const v1::Ack& message, TimePoint now) {
     const auto found = seats_.find(message.view());
     if (found == seats_.end()) return;  // Of a view that was just closed.
     const Seat& seat = found->second;
-    seat.view->acked(seat.viewer,
-                     {.sequence = message.sequence(),
-                      .hold = std::chrono::microseconds{message.hold_us()},
-                      .queued = message.queue(),
-                      .keyframe = message.keyframe()},
-                     now);
+    const std::chrono::duration<double, std::milli> roundTrip =
+        seat.view->acked(seat.viewer,
+                         {.sequence = message.sequence(),
+                          .hold = std::chrono::microseconds{message.hold_us()},
+                          .queued = message.queue(),
+                          .keyframe = message.keyframe()},
+                         now);
+    shared_.metrics.frameAcked(roundTrip.count());
 }
 
 void Session::explain(const v1::Explain& message) {

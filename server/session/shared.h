@@ -5,6 +5,7 @@
 #include <functional>
 #include <string>
 
+#include "server/metrics/metrics.h"
 #include "server/session/catalogue.h"
 #include "server/session/encode_pool.h"
 #include "server/session/view_router.h"
@@ -19,6 +20,7 @@ class Views;
 struct SessionLimits {
     std::uint32_t maxViews = 16;
     std::uint32_t maxMessageBytes = 64 * 1024;
+    std::uint32_t maxMessagesPerS = 4000;
     std::uint64_t maxViewPixels = std::uint64_t{7680} * 4320;  ///< Of one view.
     std::size_t maxWaitingMessages = 1024;  ///< Replies that the client has not read yet.
 };
@@ -44,6 +46,7 @@ struct Shared {
     std::string server;                      ///< Name and version.
     std::string sourceUrl;                   ///< Where the source of this server is.
     workers::FaultSwitch* faults = nullptr;  ///< Null: nobody may inject faults.
+    metrics::Metrics metrics = {};
 };
 
 }  // namespace volcast::session

@@ -140,12 +140,13 @@ void SharedView::setCodecs(ViewerId id, const ClientCodecs& codecs) {
     if (Viewer* viewer = find(id)) viewer->setCodecs(codecs);
 }
 
-void SharedView::acked(ViewerId id, const FrameAck& ack, TimePoint now) {
+std::chrono::microseconds SharedView::acked(ViewerId id, const FrameAck& ack, TimePoint now) {
     const Turn turn{*this};
     Viewer* viewer = find(id);
-    if (viewer == nullptr) return;
+    if (viewer == nullptr) return {};
     viewer->acked(ack, now);
     advance(*viewer, now);
+    return viewer->roundTrip();
 }
 
 std::optional<v1::ServerMessage> SharedView::takeMail(ViewerId id) {

@@ -66,7 +66,8 @@ public:
     // where no error is returned.
     /// Errors: as sizeFrom() and ViewScene::update.
     Result<void> update(ViewerId viewer, const v1::Update& message, TimePoint now);
-    void acked(ViewerId viewer, const FrameAck& ack, TimePoint now);
+    /// The viewer's round trip, smoothed; 0 where it is not known.
+    std::chrono::microseconds acked(ViewerId viewer, const FrameAck& ack, TimePoint now);
     /// What pacing must not change of this viewer's frames; `codec` of interactive pictures.
     void setPins(ViewerId viewer, const PacePins& pins, v1::Codec codec, TimePoint now);
     /// More, or less, is known of what its client can show.

@@ -79,6 +79,10 @@ public:
     /// The frame to send now, if any; it counts as under way from then on.
     std::optional<ReadyFrame> takeFrame(TimePoint now);
     void acked(const FrameAck& ack, TimePoint now);
+    /// Smoothed; 0 before the first ack.
+    [[nodiscard]] std::chrono::microseconds roundTrip() const noexcept {
+        return pacing_.flow().roundTrip();
+    }
     void tick(TimePoint now);
     /// When tick() and takeEncode() should be called again though nothing happened.
     [[nodiscard]] std::optional<TimePoint> deadline(TimePoint now) const;

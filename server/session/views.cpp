@@ -104,6 +104,15 @@ void Views::left(const std::shared_ptr<SharedView>& view) {
     if (view->abandoned(now)) erase(found);
 }
 
+std::size_t Views::size() {
+    const std::lock_guard lock{mutex_};
+    return views_.size();
+}
+
+std::size_t Views::picturesToEncode() {
+    return desc_.parts.encoders.waiting();
+}
+
 void Views::sweep(TimePoint now) {
     people_.expire(now);
     for (auto entry = views_.begin(); entry != views_.end();) {

@@ -47,6 +47,9 @@ public:
     /// Saves and ends all views.
     void clear();
 
+    [[nodiscard]] std::size_t size();
+    /// Pictures that no encoder's thread has begun.
+    [[nodiscard]] std::size_t picturesToEncode();
     [[nodiscard]] PersonBook& people() noexcept { return people_; }
     [[nodiscard]] std::chrono::seconds keep() const noexcept { return desc_.keep; }
     [[nodiscard]] std::size_t maxPeople() const noexcept { return desc_.parts.maxPeople; }

@@ -92,6 +92,8 @@ struct RenderStatus {
     bool ready = false;
     std::uint32_t generation = 0;
     std::uint32_t losses = 0;  ///< Workers lost since start.
+    std::uint32_t starts =
+        0;  ///< Worker processes started, those that never became ready included.
     bool spareReady = false;
     int workerPid = 0;  ///< Of the one that draws now; 0: none.
     int sparePid = 0;   ///< Of the one that waits, ready or not; 0: none.

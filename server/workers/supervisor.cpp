@@ -322,6 +322,7 @@ void Supervisor::start(Worker& worker) {
     if (!started) return startFailed(started.error());
     startError_.reset();
     worker = *std::move(started);
+    ++starts_;
     for (const auto& [id, packed] : datasets_) {
         worker->addDataset(id, packed, settings_.datasetDeadline);
     }
@@ -337,6 +338,7 @@ RenderStatus Supervisor::status() const {
     status.ready = main_ && main_->ready();
     status.generation = generation_;
     status.losses = losses_;
+    status.starts = starts_;
     status.spareReady = spare_ && spare_->ready() && spare_->warm();
     status.workerPid = main_ ? main_->pid() : 0;
     status.sparePid = spare_ ? spare_->pid() : 0;

@@ -132,6 +132,7 @@ private:
     bool everReady_ = false;
     std::uint32_t generation_ = 0;
     std::uint32_t losses_ = 0;
+    std::uint32_t starts_ = 0;
     std::string lastLoss_;
 };
 

@@ -126,7 +126,7 @@ ServerProcess::ServerProcess(const std::vector<std::string>& arguments,
     if (pid_ < 0) return;
     eventually([this] {
         const std::string out = readFile(folder_.path() / "out");
-        const auto line = out.find("Volcast is ready: http://");
+        const auto line = out.find("Volcast is ready: http");
         const auto end = out.find("/\n");
         if (line != std::string::npos && end != std::string::npos) {
             port_ = static_cast<std::uint16_t>(std::stoi(out.substr(out.rfind(':') + 1)));

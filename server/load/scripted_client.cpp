@@ -1,0 +1,200 @@
+#include "server/load/scripted_client.h"
+
+#include <utility>
+
+#include "protocol/framing.h"
+
+namespace volcast::load {
+
+namespace {
+
+constexpr std::uint32_t kView = 1;
+constexpr std::chrono::milliseconds kStay{500};  ///< Of "join", after its first frame.
+constexpr std::chrono::milliseconds kAway{100};
+constexpr std::chrono::milliseconds kRetry{1000};
+
+double msSince(std::chrono::steady_clock::time_point then) {
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - then)
+        .count();
+}
+
+}  // namespace
+
+net::LinkShape ScriptedClient::shape() const {
+    if (kind_ == Kind::kShaped) return stage_.settings.shaped;
+    if (kind_ == Kind::kSlow) return {.bytesPerSecond = stage_.settings.slowBytesPerSecond};
+    return {};
+}
+
+void ScriptedClient::start() {
+    ++connection_;
+    greeted_ = false;
+    startedAt_ = Clock::now();
+    shownSeq_ = 0;
+    unanswered_.clear();
+    script_.reset();
+    socket_ = stage_.loop.connect(
+        stage_.settings.url, shape(),
+        {.opened =
+             [this] {
+                 ++stats_.connects;
+                 v1::ClientMessage message;
+                 message.mutable_hello()->set_major(protocol::kMajor);
+                 message.mutable_hello()->set_minor(protocol::kMinor);
+                 message.mutable_hello()->set_client("volcast load");
+                 message.mutable_hello()->add_codecs(v1::CODEC_JPEG);
+                 message.mutable_hello()->add_codecs(v1::CODEC_PNG);
+                 send(message);
+             },
+         .message = [this](std::span<const std::byte> bytes) { receive(bytes); },
+         .closed = [this](const std::string& why) { closed(why); }});
+}
+
+void ScriptedClient::receive(std::span<const std::byte> bytes) {
+    if (!bytes.empty() && bytes.front() == std::byte{protocol::kMajor}) return frame(bytes);
+    v1::ServerMessage message;
+    if (!message.ParseFromArray(bytes.data(), static_cast<int>(bytes.size()))) {
+        ++stats_.errors["unreadable message of the server"];
+        return;
+    }
+    switch (message.body_case()) {
+        case v1::ServerMessage::kWelcome: return welcome(message.welcome());
+        case v1::ServerMessage::kDatasetList:
+            for (const auto& one : message.dataset_list().datasets()) {
+                datasets_[one.id()] = one.kind();
+            }
+            return;
+        case v1::ServerMessage::kDatasetInfo:
+            datasets_[message.dataset_info().id()] = message.dataset_info().kind();
+            return;
+        case v1::ServerMessage::kViewOpened: return opened(message.view_opened());
+        case v1::ServerMessage::kViewShared: return view_.shared(message.view_shared().link());
+        case v1::ServerMessage::kError: return refused(message.error());
+        default: return;
+    }
+}
+
+void ScriptedClient::welcome(const v1::Welcome& message) {
+    greeted_ = true;
+    welcome_ = message;
+    if (opens_ || !view_.link.empty()) return openView();
+    view_.waiting.emplace_back([this, mine = connection_] {
+        if (greeted_ && mine == connection_) openView();
+    });
+}
+
+void ScriptedClient::openView() {
+    v1::ClientMessage message;
+    v1::OpenView& open = *message.mutable_open_view();
+    open.set_view(kView);
+    if (opens_) {
+        open.set_dataset(stage_.settings.dataset);
+    } else {
+        open.set_link(view_.link);
+    }
+    open.mutable_viewport()->set_width(stage_.settings.width);
+    open.mutable_viewport()->set_height(stage_.settings.height);
+    open.set_input_seq(inputSeq_ = 1);
+    send(message);
+}
+
+void ScriptedClient::opened(const v1::ViewOpened& message) {
+    inputSeq_ = std::max(inputSeq_, message.input_seq());
+    if (opens_ && view_.members > 1) {
+        sharing_ = true;
+        v1::ClientMessage share;
+        share.mutable_share_view()->set_view(kView);
+        share.mutable_share_view()->set_role(v1::ROLE_WATCH);
+        send(share);
+    }
+    if (!opens_ || !moves(kind_)) return;
+    const auto& layers = message.scene().layers();
+    const bool isMesh = !layers.empty() && datasets_[layers[0].dataset()] == v1::DATASET_KIND_MESH;
+    std::vector<v1::RayModel> models;
+    for (const int model : isMesh ? welcome_.mesh_models() : welcome_.volume_models()) {
+        models.push_back(static_cast<v1::RayModel>(model));
+    }
+    script_.emplace(kind_, message.scene(), std::move(models));
+    input(connection_);
+}
+
+void ScriptedClient::input(std::uint64_t connection) {
+    if (connection != connection_ || !greeted_ || !script_) return;
+    v1::ClientMessage message;
+    message.mutable_update()->set_view(kView);
+    message.mutable_update()->set_input_seq(++inputSeq_);
+    script_->next(*message.mutable_update());
+    unanswered_.push_back({inputSeq_, Clock::now()});
+    view_.sent(inputSeq_);
+    if (stage_.measuring) ++stats_.inputs;
+    send(message);
+    const std::chrono::duration<double> period{1.0 / stage_.settings.inputsPerSecond};
+    stage_.loop.at(Clock::now() + std::chrono::duration_cast<Clock::duration>(period),
+                   [this, connection] { input(connection); });
+}
+
+void ScriptedClient::frame(std::span<const std::byte> bytes) {
+    const auto frame = protocol::decodeFrame(bytes);
+    if (!frame) {
+        ++stats_.errors["unreadable frame"];
+        return;
+    }
+    v1::ClientMessage ack;
+    ack.mutable_ack()->set_view(frame->prefix.view);
+    ack.mutable_ack()->set_sequence(frame->prefix.sequence);
+    send(ack);
+    const bool first = shownSeq_ == 0;
+    settled_ = true;
+    if (first) stats_.firstFrame.add(msSince(startedAt_));
+    measure(frame->header.input_seq(), bytes.size());
+    if (kind_ != Kind::kJoin || !first) return;
+    stage_.loop.at(Clock::now() + kStay, [this, mine = connection_] {
+        if (greeted_ && mine == connection_) socket_->close();
+    });
+}
+
+void ScriptedClient::measure(std::uint64_t inputSeq, std::size_t bytes) {
+    if (stage_.measuring) {
+        ++frames_;
+        ++stats_.frames;
+        stats_.bytes += bytes;
+    }
+    if (inputSeq <= shownSeq_) return;  // The same state again, as a better picture.
+    shownSeq_ = inputSeq;
+    const auto sent = view_.sentAt.find(inputSeq);
+    if (stage_.measuring && sent != view_.sentAt.end()) stats_.age.add(msSince(sent->second));
+    while (!unanswered_.empty() && unanswered_.front().inputSeq <= inputSeq) {
+        if (stage_.measuring) {
+            stats_.inputToFrame.add(msSince(unanswered_.front().at));
+            if (unanswered_.front().inputSeq < inputSeq) ++stats_.overtaken;
+        }
+        unanswered_.pop_front();
+    }
+}
+
+void ScriptedClient::refused(const v1::Error& error) {
+    if (sharing_ && view_.link.empty() && error.code() == v1::ERROR_CODE_MALFORMED_MESSAGE) {
+        return stage_.giveUp("the server (protocol minor " + std::to_string(welcome_.minor()) +
+                             ") does not know share_view, which --views needs: " + error.message());
+    }
+    settled_ = true;
+    ++stats_.errors[v1::ErrorCode_Name(error.code())];
+}
+
+void ScriptedClient::closed(const std::string& why) {
+    const bool wasOpen = std::exchange(greeted_, false);
+    socket_.reset();
+    if (!why.empty()) {
+        settled_ = true;
+        ++(wasOpen ? stats_.lostConnections : stats_.failedConnects);
+        ++stats_.errors[why];
+    }
+    if (opens_) view_.link.clear();
+    stage_.loop.at(Clock::now() + (why.empty() ? kAway : kRetry), [this] { start(); });
+}
+
+void ScriptedClient::send(const v1::ClientMessage& message) {
+    if (socket_) socket_->send(message.SerializeAsString());
+}
+
+}  // namespace volcast::load

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "server/load/script.h"
+#include "server/net/client_loop.h"
+
+namespace volcast::load {
+
+struct Group {
+    Kind kind = Kind::kOrbit;
+    unsigned clients = 1;
+};
+
+/// All of one load run.
+struct LoadSettings {
+    net::WsUrl url;
+    std::string trustFile;  ///< PEM; empty: the system's certificates.
+    std::vector<Group> groups;
+    /// So many views for all clients: the first clients open and steer one each, the others join
+    /// by its link and watch. 0: one a client.
+    unsigned views = 0;
+    double rampUpS = 1;     ///< Clients connect one after the other over so long; not measured.
+    double durationS = 10;  ///< Measured, after that.
+    double inputsPerSecond = 30;
+    std::string dataset;  ///< Empty: the first that the server lists.
+    std::uint32_t width = 512, height = 512;
+    double slowBytesPerSecond = 200e3;  ///< Of "slow".
+    net::LinkShape shaped{.bytesPerSecond = 1.25e6, .delay = std::chrono::milliseconds{25}};
+    int serverPid = 0;  ///< Whose processes are measured; 0: nobody's.
+};
+
+}  // namespace volcast::load

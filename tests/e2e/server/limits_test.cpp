@@ -1,0 +1,99 @@
+// Floods: of messages, of connections; and clients that do not leave.
+#include <csignal>
+#include <memory>
+#include <vector>
+
+#include <gmock/gmock.h>
+
+#include "tests/e2e/server/raw_socket.h"
+#include "tests/e2e/server/test_client.h"
+
+namespace volcast::test {
+namespace {
+
+using testing::HasSubstr;
+
+v1::ClientMessage ping(std::uint64_t token) {
+    v1::ClientMessage message;
+    message.mutable_ping()->set_token(token);
+    return message;
+}
+
+TEST(Limits, AClientThatSendsTooManyMessagesIsToldAndClosed) {
+    const ServerProcess server{{"--max-messages-per-s", "50"}};
+    ASSERT_TRUE(server.ready()) << server.log();
+    TestClient hasty{server.port()};
+    TestClient calm{server.port()};
+    ASSERT_TRUE(hasty.ok() && calm.ok());
+    for (std::uint64_t i = 1; i <= 2000; ++i) hasty.send(ping(i));
+    const auto refusal = hasty.waitForError();
+    ASSERT_TRUE(refusal.has_value());
+    EXPECT_EQ(refusal->code(), v1::ERROR_CODE_LIMIT_EXCEEDED);
+    EXPECT_EQ(refusal->message(), "more than 50 messages a second");
+    while (hasty.read(kPatience)) {
+    }
+    EXPECT_EQ(hasty.socket().closeCode(), 1008);
+    calm.send(ping(7));
+    EXPECT_TRUE(calm.waitFor([](const auto& one) { return one.pong().token() == 7; }).has_value());
+}
+
+// Idle connections are cut off after 5 s; until then those above the limit are dropped, and who
+// has a WebSocket notices nothing.
+TEST(Limits, AFloodOfConnectionsPasses) {
+    const ServerProcess server{{"--max-clients", "2"}};
+    ASSERT_TRUE(server.ready()) << server.log();
+    TestClient client{server.port()};
+    ASSERT_TRUE(client.ok());
+    std::vector<std::unique_ptr<RawSocket>> flood;
+    for (int i = 0; i < 300; ++i) flood.push_back(std::make_unique<RawSocket>(server.port()));
+    client.send(ping(7));
+    EXPECT_TRUE(
+        client.waitFor([](const auto& one) { return one.pong().token() == 7; }).has_value());
+    EXPECT_TRUE(eventually([&] { return http(server.port(), "/healthz").status == 200; }));
+}
+
+TEST(Limits, AFloodOfViewsIsRefusedOneByOne) {
+    const ServerProcess server{{"--max-views", "2"}};
+    ASSERT_TRUE(server.ready()) << server.log();
+    TestClient client{server.port()};
+    ASSERT_TRUE(client.ok());
+    for (std::uint32_t view = 1; view <= 50; ++view) client.openView(view, "demo:volume");
+    for (std::uint32_t view = 3; view <= 50; ++view) {
+        const auto refusal = client.waitForError();
+        ASSERT_TRUE(refusal.has_value());
+        EXPECT_EQ(refusal->code(), v1::ERROR_CODE_LIMIT_EXCEEDED);
+        EXPECT_EQ(refusal->view(), view);
+    }
+    EXPECT_TRUE(client.waitForFrame(1, 1).has_value());
+}
+
+// It never answers the close: 5 s later the server ends without it, and cleanly.
+TEST(Drain, AClientThatDoesNotLeaveDoesNotHoldTheServer) {
+    ServerProcess server;
+    ASSERT_TRUE(server.ready()) << server.log();
+    RawSocket deaf{server.port()};
+    ASSERT_TRUE(deaf.upgrade());
+    server.signal(SIGTERM);
+    const auto ended = server.wait();
+    ASSERT_TRUE(ended.has_value());
+    EXPECT_EQ(ended->exitCode, 0) << ended->err;
+    EXPECT_THAT(ended->err, HasSubstr("event=stopped"));
+}
+
+TEST(Drain, NobodyNewIsLetIn) {
+    ServerProcess server;
+    ASSERT_TRUE(server.ready()) << server.log();
+    RawSocket deaf{server.port()};
+    ASSERT_TRUE(deaf.upgrade());  // Its session may not have begun yet.
+    server.signal(SIGTERM);
+    ASSERT_TRUE(eventually([&] { return server.log().find("draining") != std::string::npos; }));
+    EXPECT_EQ(http(server.port(), "/healthz").status, 0U);
+    const auto close = deaf.readFrame();
+    ASSERT_TRUE(close.has_value());
+    EXPECT_EQ(close->opcode, kClose);
+    EXPECT_EQ(close->closeCode(), 1012U);
+    EXPECT_TRUE(server.wait().has_value());
+}
+
+}  // namespace
+}  // namespace volcast::test

@@ -1,0 +1,17 @@
+// The chain of a TIFF file's pages.
+#include <string>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include "renderer/base/file_descriptor.h"
+#include "renderer/data/load/tiff_pages.h"
+#include "tests/fuzz/fuzz_target.h"
+
+using namespace volcast;
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    const base::FileDescriptor file{::memfd_create("tiff", MFD_CLOEXEC)};
+    if (::write(file.get(), data, size) != static_cast<ssize_t>(size)) return 0;
+    (void)data::load::tiffPages("/proc/self/fd/" + std::to_string(file.get()));
+    return 0;
+}
