@@ -1,5 +1,7 @@
 #include "server/session/metrics_text.h"
 
+#include "server/session/views.h"
+
 namespace volcast::session {
 
 std::string metricsText(Shared& shared) {

@@ -14,7 +14,8 @@ constexpr std::uint32_t kMostUnderWay = 8;
 /// RGBA8 of a lossless frame.
 Decoded exactPixels(const TestFrame& frame) {
     if (frame.header.codec() == v1::CODEC_PNG) return decode(frame);
-    Decoded decoded{.channels = 4};
+    Decoded decoded;
+    decoded.channels = 4;
     const auto* bytes = reinterpret_cast<const std::uint8_t*>(frame.payload.data());
     if (WebPGetInfo(bytes, frame.payload.size(), &decoded.width, &decoded.height) == 0) return {};
     decoded.pixels.resize(std::size_t{4} * static_cast<std::size_t>(decoded.width) *
@@ -155,7 +156,8 @@ TEST_F(PacingAndCodecs, EachCodecsFramesShowThePictureAndTheExactOneFollows) {
     std::uint64_t seq = 1;
     for (const v1::Codec codec : codecs) {
         pin(*client, [codec](v1::Pins& pins) { pins.set_codec(codec); });
-        client->look(1, ++seq, 0.1 * static_cast<double>(seq));
+        ++seq;
+        client->look(1, seq, 0.1 * static_cast<double>(seq));
         const auto frame = client->waitForFrame([&](const TestFrame& one) {
             return one.header.codec() == codec && one.header.input_seq() == seq;
         });
@@ -193,7 +195,8 @@ TEST_F(PacingAndCodecs, KeyframesComeFirstAfterResizingAndWhenAClientAsks) {
     pin(*client, [this](v1::Pins& pins) { pins.set_codec(video.front()); });
     std::uint64_t seq = 1;
     const auto next = [&] {
-        client->look(1, ++seq, 0.1 * static_cast<double>(seq));
+        ++seq;
+        client->look(1, seq, 0.1 * static_cast<double>(seq));
         return client->waitForFrame([&](const TestFrame& one) {
             return one.header.codec() == video.front() && one.header.input_seq() == seq;
         });

@@ -89,9 +89,9 @@ TEST(ValidateScene, NamesTheFieldAtFault) {
               (Refusal{invalid, "layers[0].step_world"}));
     EXPECT_EQ(refused([](Scene& s) { s.layers[0].surfaceColour.b = kNan; }),
               (Refusal{invalid, "layers[0].surface_colour"}));
-    for (const data::Range wrong : {data::Range{.min = 2.0F, .max = 1.0F},
-                                    data::Range{.min = kNan, .max = 1.0F},
-                                    data::Range{.min = 0.0F, .max = HUGE_VALF}}) {
+    for (const data::Range wrong :
+         {data::Range{.min = 2.0F, .max = 1.0F}, data::Range{.min = kNan, .max = 1.0F},
+          data::Range{.min = 0.0F, .max = HUGE_VALF}}) {
         EXPECT_EQ(refused([&](Scene& s) { s.layers[0].interval = wrong; }),
                   (Refusal{invalid, "layers[0].interval"}));
     }
@@ -135,8 +135,7 @@ TEST(ValidateScene, AgainstItsData) {
               (Refusal{ErrorCode::kNotFound, "layers[0].field"}));
     EXPECT_EQ(refused(meshSummary(), [](Layer& l) { l.timeStep = 3; }),
               (Refusal{ErrorCode::kInvalidArgument, "layers[0].time_step"}));
-    EXPECT_EQ(refused(meshSummary(),
-                      [](Layer& l) { l.scale.domain = {.min = 1.0F, .max = 1.0F}; }),
+    EXPECT_EQ(refused(meshSummary(), [](Layer& l) { l.scale.domain = {.min = 1.0F, .max = 1.0F}; }),
               (Refusal{ErrorCode::kInvalidArgument, "layers[0].scale.domain"}));
     EXPECT_EQ(refused(volumeSummary(), [](Layer& l) { l.model = RayModel::kSurface; }),
               (Refusal{ErrorCode::kUnsupported, "layers[0].model"}));

@@ -178,8 +178,8 @@ std::vector<LinkCase> linkCases() {
 }
 
 INSTANTIATE_TEST_SUITE_P(Links, PacingOverALink, testing::ValuesIn(linkCases()),
-                         [](const auto& info) {
-                             const LinkCase& c = info.param;
+                         [](const auto& row) {
+                             const LinkCase& c = row.param;
                              const auto text = [](double v) {
                                  return std::to_string(static_cast<int>(v));
                              };

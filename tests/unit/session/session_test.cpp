@@ -23,11 +23,12 @@ protected:
         desc.importer = importCube;
         catalogue = *Catalogue::create(std::move(desc), render);
         events = router.events();
+        const LinkKey key = *LinkKey::random();
         views = std::make_unique<Views>(ViewsDesc{.parts = {.render = render,
                                                             .catalogue = *catalogue,
                                                             .router = router,
                                                             .encoders = encoders},
-                                                  .key = *LinkKey::random()});
+                                                  .key = key});
         shared = std::make_unique<Shared>(Shared{.render = render,
                                                  .catalogue = *catalogue,
                                                  .views = *views,

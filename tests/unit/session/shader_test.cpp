@@ -100,7 +100,7 @@ protected:
             return imported;
         };
         catalogue_ = *Catalogue::create(std::move(desc), render_);
-        view_ = std::make_unique<ViewScene>(*catalogue_, std::uint64_t{1} << 20U);
+        view_ = std::make_unique<ViewScene>(*catalogue_);
         v1::OpenView message;
         message.set_dataset("demo:volume");
         message.set_input_seq(1);

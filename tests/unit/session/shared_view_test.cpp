@@ -24,11 +24,12 @@ protected:
         const std::string id = catalogue->list().datasets(0).id();
         ASSERT_TRUE(catalogue->require(id).has_value());
         while (!catalogue->standing(id).loaded) std::this_thread::yield();
+        const LinkKey key = *LinkKey::random();
         views = std::make_unique<Views>(ViewsDesc{.parts = {.render = render,
                                                             .catalogue = *catalogue,
                                                             .router = router,
                                                             .encoders = encoders},
-                                                  .key = *LinkKey::random()});
+                                                  .key = key});
         v1::OpenView open;
         open.set_dataset(id);
         open.set_input_seq(1);

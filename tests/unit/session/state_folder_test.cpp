@@ -20,13 +20,14 @@ SavedView exampleView(const std::string& id) {
     layer.dataset = "d";
     layer.field = "f";
     layer.map.points = {{.value = 0.25F}};
-    view.people.push_back({.member = {.person = 7,
-                                      .name = "Zoë \"Z\"",
-                                      .role = v1::ROLE_CONTROL,
-                                      .number = 3,
-                                      .size = {640, 480}},
-                           .steers = true,
-                           .tokenHash = "hash"});
+    SavedView::Person& person = view.people.emplace_back();
+    person.member.person = 7;
+    person.member.name = "Zoë \"Z\"";
+    person.member.role = v1::ROLE_CONTROL;
+    person.member.number = 3;
+    person.member.size = {640, 480};
+    person.steers = true;
+    person.tokenHash = "hash";
     return view;
 }
 
