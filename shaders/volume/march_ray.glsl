@@ -215,14 +215,15 @@ RayState marched(Ray ray, March march) {
     if (kForesees && skips) foresee(state, march, together);
     int i = march.first;
     bool jumped = true;
-    bool entered = false;
+    // Until it is known between which levels a ray is, ranges say nothing.
+    bool entered = !kNarrows;
     do {
         int beyond = march.steps;
         int before = i;
         bool shows = true;
         if (kSkipBricks) {
             do {
-                beyond = min(beyondAlike(state, march, i, together, skips, shows), march.steps);
+                beyond = min(beyondAlike(state, march, i, together, skips && entered, shows), march.steps);
                 i = shows ? i : beyond;
             } while (!shows && i < march.steps);
             jumped = jumped || i > before;
@@ -234,10 +235,10 @@ RayState marched(Ray ray, March march) {
             // But behind a gap the field may be anywhere.
             bool enters = !kNarrows || kMissing || !entered;
             if (enters && !lacksValue(value)) enterData(state, here);
-            entered = true;
             jumped = false;
         }
         if (shows) finished = takeSteps(state, value, ray, march, i, beyond);
+        entered = entered || !lacksValue(value);
     } while (i < march.steps && !finished);
     if (kNarrows && finished) narrow(state, march, i - 1, value);
     return state;
