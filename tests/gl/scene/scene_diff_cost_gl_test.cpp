@@ -49,7 +49,8 @@ TEST_F(SceneDiffCost, TheFirstPictureBringsEverythingOnce) {
     const auto info = drawn();
     EXPECT_TRUE(info.drawn);
     EXPECT_EQ(info.work.textureUploads, 1U) << "voxels";
-    EXPECT_EQ(info.work.bufferUploads, 3U) << "their ranges, the map and the blocks";
+    EXPECT_EQ(info.work.bufferUploads, 5U)
+        << "their ranges for both interpolations, the empty space, the map and the blocks";
     EXPECT_EQ(info.work.programsBuilt, 2U) << "the march and the resolve";
     EXPECT_EQ(info.work.drawCalls, 2U);
     EXPECT_EQ(info.work.framesDrawn, 1U);
@@ -95,7 +96,8 @@ TEST_F(SceneDiffCost, AFieldSwitchIsItsVoxelsTheFirstTimeAndNothingLater) {
     scene_.layers[0].field = "falling";
     auto info = drawn();
     EXPECT_EQ(info.work.textureUploads, 1U) << "voxels of the other channel";
-    EXPECT_EQ(info.work.bufferUploads, 1U) << "their ranges";
+    EXPECT_EQ(info.work.bufferUploads, 3U)
+        << "their ranges for both interpolations, the empty space";
     EXPECT_EQ(info.work.programsBuilt, 0U);
     scene_.layers[0].field = "rising";
     info = drawn();
@@ -144,7 +146,7 @@ TEST_F(SceneDiffCost, ViewsShareDataAndPrograms) {
     EXPECT_TRUE(info.drawn);
     EXPECT_EQ(info.work.textureUploads, 0U);
     EXPECT_EQ(info.work.programsBuilt, 0U);
-    EXPECT_EQ(info.work.bufferUploads, 2U) << "a view's own map and blocks";
+    EXPECT_EQ(info.work.bufferUploads, 3U) << "a view's own map, empty space and blocks";
     EXPECT_FALSE(drawn(1).drawn) << "another view's picture is not this one's";
     renderer_->dropView(1);
     EXPECT_TRUE(drawn(1).drawn);

@@ -405,7 +405,7 @@ TEST_F(Validator, EveryProgramIsGlslToAnIndependentCompiler) {
             if (function.name == "main") all.emplace(chunk.path);
         }
     }
-    EXPECT_EQ(mains_, all) << "a file with a main() is not compiled here";
+    EXPECT_TRUE(std::ranges::includes(mains_, all)) << "a file with a main() is not compiled here";
 }
 
 TEST_F(Validator, ComplaintsNameChunkAndLine) {
