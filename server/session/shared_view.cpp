@@ -248,8 +248,11 @@ void SharedView::sceneNews(const std::string& dataset, TimePoint now) {
 void SharedView::setState(Viewer& viewer, v1::ViewState state, const std::string& text) {
     if (viewer.state == state) return;
     viewer.state = state;
-    spdlog::info(R"(event=view_state view={} number={} state={} message="{}")", id_,
-                 viewer.number(), v1::ViewState_Name(state), base::printable(text, 1000));
+    const auto of = std::ranges::find(
+        viewers_, &viewer, [](const auto& one) -> const Viewer* { return one.second.get(); });
+    spdlog::info(R"(event=view_state view={} person={} number={} state={} message="{}")", id_,
+                 of == viewers_.end() ? 0 : people_.at(of->first).person, viewer.number(),
+                 v1::ViewState_Name(state), base::printable(text, 1000));
     tell(viewer, statusMessage(viewer.number(), state, text));
 }
 

@@ -122,8 +122,8 @@ void SharedView::failed(std::uint64_t tag, const Error& error) {
     const bool sceneIsToBlame = !error.field.empty() || error.code == ErrorCode::kOutOfGpuMemory;
     const auto reverted = sceneIsToBlame ? scene_.revert() : std::nullopt;
     if (reverted) {
-        told.message = "the scene of input " + std::to_string(*reverted) +
-                       " is refused, the last one that was drawn stays: " + told.message;
+        told.message += "; the scene of input " + std::to_string(*reverted) +
+                        " is refused, the last one that was drawn stays";
     }
     for (const auto& [id, viewer] : viewers_) {
         if (viewer->rendition != refused) continue;
