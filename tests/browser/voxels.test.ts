@@ -65,6 +65,7 @@ describe("a volume of voxels", () => {
 
   it("is jittered by a seed, sliced, and sampled 64 times over its depth", async () => {
     await client.after(() => choose("Samples", "Half a voxel apart"));
+    await client.after(() => choose("Between voxels", "Linear"));
     const plain = await picture();
     await expectEachDiffers([
       () => check("Jitter: noise instead of bands", true),
