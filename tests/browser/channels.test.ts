@@ -60,9 +60,9 @@ describe("channels of a volume", () => {
     const both = await picture();
     const rows = client.page.locator(".channel");
     expect(await rows.count()).toBe(2);
-    await client.after(() => rows.nth(0).getByRole("checkbox").uncheck());
+    await client.after(() => rows.nth(0).getByRole("checkbox", { name: "balls_0" }).uncheck());
     const second = await picture();
-    await client.after(() => rows.nth(0).getByRole("checkbox").check());
+    await client.after(() => rows.nth(0).getByRole("checkbox", { name: "balls_0" }).check());
     expect(await picture()).toBe(both);
     await client.after(async () => {
       await rows.nth(1).getByLabel("Opacity %").fill("10");
