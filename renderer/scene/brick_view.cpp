@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "renderer/plan/effects.h"
-#include "renderer/plan/matter.h"
 #include "renderer/scene/layer_block.h"
 #include "renderer/scene/layer_fields.h"
 #include "renderer/scene/scale.h"
-#include "renderer/scene/user_controls.h"
+#include "renderer/scene/shown_values.h"
 
 namespace volcast::scene {
 namespace {
@@ -40,29 +40,11 @@ std::vector<glm::dvec4> sidesOf(const volume::BrickView& view, const glm::dvec2&
 /// Whether values of a range can show; empty where all do.
 std::function<bool(glm::vec2)> showsOf(const Layer& layer, const plan::LayerPlan& plan,
                                        const data::DatasetSummary& summary) {
-    std::function<bool(glm::vec2)> byModel;
+    volume::ShownValues shown = shownValues(layer, plan, summary);
+    if (shown == kAllValues) return {};
     const ScaleFunction scale{layer.scale, findField(summary, layer.field)->range};
-    if (runsUserCode(layer)) {
-        // Nobody knows what it shows of a value.
-    } else if (layer.model == RayModel::kVolume || layer.model == RayModel::kXray) {
-        LayerMaps maps = layerMaps(layer, summary);
-        byModel = [scale, map = maps.density.points.empty()
-                                    ? std::move(maps.main)
-                                    : std::move(maps.density)](glm::vec2 range) {
-            return plan::extinctionOver(
-                       map, {.min = scale.ofPoint(range.x), .max = scale.ofPoint(range.y)})
-                       .max > 0.0F;
-        };
-    } else if (layer.model == RayModel::kIsosurface) {
-        byModel = [levels = levelsOf(layer)](glm::vec2 range) {
-            return std::ranges::any_of(
-                levels, [&](float level) { return level >= range.x && level <= range.y; });
-        };
-    }
-    if (!plan.has(plan::kInterval)) return byModel;
-    return [byModel, interval = *layer.interval](glm::vec2 range) {
-        const glm::vec2 inside{std::max(range.x, interval.min), std::min(range.y, interval.max)};
-        return inside.x <= inside.y && (!byModel || byModel(inside));
+    return [scale, shown = std::move(shown)](glm::vec2 range) {
+        return volume::shows(shown, {scale.ofPoint(range.x), scale.ofPoint(range.y)});
     };
 }
 

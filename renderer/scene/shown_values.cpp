@@ -7,6 +7,7 @@
 #include "renderer/plan/effects.h"
 #include "renderer/scene/layer_fields.h"
 #include "renderer/scene/scale.h"
+#include "renderer/scene/user_controls.h"
 
 namespace volcast::scene {
 namespace {
@@ -24,11 +25,12 @@ void add(volume::ShownValues& shown, float first, float last) {
 }
 
 volume::ShownValues shownByModel(const Layer& layer, const data::DatasetSummary& summary) {
+    if (runsUserCode(layer)) return kAllValues;
     if (layer.model == RayModel::kVolume || layer.model == RayModel::kXray) {
         const LayerMaps maps = layerMaps(layer, summary);
         return absorbingValues(maps.density.points.empty() ? maps.main : maps.density);
     }
-    if (layer.model != RayModel::kIsosurface) return {{-kInfinity, kInfinity}};
+    if (layer.model != RayModel::kIsosurface) return kAllValues;
     const FieldUse use = mainField(layer, summary);
     const ScaleFunction scale{use.scale, use.field->range};
     volume::ShownValues shown;

@@ -97,15 +97,19 @@ std::array<glm::vec3, 2> shownBox(std::span<const std::uint8_t> shows, glm::ivec
 
 }  // namespace
 
+bool shows(const ShownValues& shown, glm::vec2 range) {
+    const auto next = std::ranges::lower_bound(shown, range.x, {}, &glm::vec2::y);
+    return next != shown.end() && next->x <= range.y;
+}
+
 std::vector<std::uint8_t> showingBlocks(std::span<const glm::vec2> ranges, const ShownValues& shown,
                                         float overshoot) {
-    std::vector<std::uint8_t> shows(ranges.size());
-    std::ranges::transform(ranges, shows.begin(), [&](glm::vec2 range) -> std::uint8_t {
+    std::vector<std::uint8_t> showing(ranges.size());
+    std::ranges::transform(ranges, showing.begin(), [&](glm::vec2 range) -> std::uint8_t {
         const float over = overshoot > 0.0F ? overshoot * (range.y - range.x) : 0.0F;
-        const auto next = std::ranges::lower_bound(shown, range.x - over, {}, &glm::vec2::y);
-        return next != shown.end() && next->x <= range.y + over ? 1 : 0;
+        return shows(shown, {range.x - over, range.y + over}) ? 1 : 0;
     });
-    return shows;
+    return showing;
 }
 
 std::vector<std::uint8_t> distancesToShowing(std::span<const std::uint8_t> shows, glm::ivec3 grid) {

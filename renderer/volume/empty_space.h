@@ -23,6 +23,9 @@ struct ChannelRanges {
     std::vector<glm::vec2> support;  ///< Of the voxels that tricubic values are sums of.
 };
 
+/// Whether a value of `range` shows.
+bool shows(const ShownValues& shown, glm::vec2 range);
+
 /// 1 for each range that has a value which shows, else 0. `overshoot`: how far interpolation leaves
 /// a range to both sides, of its extent.
 std::vector<std::uint8_t> showingBlocks(std::span<const glm::vec2> ranges, const ShownValues& shown,
