@@ -123,6 +123,25 @@ TEST_F(Missing, SurfacesEndAtGaps) {
     }
 }
 
+// A diagnostic.
+TEST_F(Missing, SurfacesAreLitByWhatIsThere) {
+    layer().model = RayModel::kIsosurface;
+    for (const Sampling sampling : {Sampling::kTrilinear, Sampling::kTricubic}) {
+        layer().sampling = sampling;
+        const auto wanted = reference::draw(
+            scene_, reference::Bodies{{"volume", reference::makeBody(dataset_)}}, kSize, {}, 2);
+        const auto drawn = draw(scene_, kSize);
+        for (int y = 0; y < kSize.y; ++y) {
+            for (int x = 0; x < kSize.x; ++x) {
+                const std::size_t i = static_cast<std::size_t>(y) * kSize.x + x;
+                const glm::dvec4 off = glm::abs(glm::dvec4(drawn.at(x, y)) - wanted->pixels[i]);
+                if (std::max({off.r, off.g, off.b}) > 1e-4)
+                    std::printf("%d %d edge %d: %.5f %.5f %.5f %.1f | %.5f %.5f %.5f %.1f\n", x, y, wanted->nearEdge[i], drawn.at(x, y).r, drawn.at(x, y).g, drawn.at(x, y).b, drawn.at(x, y).a, wanted->pixels[i].r, wanted->pixels[i].g, wanted->pixels[i].b, wanted->pixels[i].a);
+            }
+        }
+    }
+}
+
 TEST_F(Missing, LightIsThatOfWhatIsThere) {
     layer().light = scene::Light{};
     EXPECT_LT(off("light").largest, kGaps + 1e-3);
