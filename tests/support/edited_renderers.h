@@ -47,7 +47,8 @@ inline std::unique_ptr<scene::Renderer> rendererWithoutSkipping(gpu::Device& dev
 inline std::unique_ptr<scene::Renderer> rendererWithoutTextureUnit(gpu::Device& device) {
     return editedRenderer(
         device,
-        {{"volume/voxels.glsl", "if (kTexels == kTexture && kFilterInHardware)", "if (false)"}});
+        {{"volume/voxels.glsl", "if (kTexels == kTexture && kFilterInHardware)", "if (false)"},
+         {"volume/channels.glsl", "return kFilterInHardware ?", "return false ?"}});
 }
 
 }  // namespace volcast::support

@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 
 #include "renderer/plan/effects.h"
+#include "renderer/scene/ray_models.h"
 #include "tests/gl/user_shader/user_shader_fixture.h"
 #include "tests/support/edited_renderers.h"
 
@@ -32,6 +33,11 @@ protected:
         });
     }
 
+    static void lookAtBalls(scene::Scene& scene) {
+        scene.camera = {.eye = {120, 90, 150}, .center = {25, 22, 30}};
+        scene.camera.fovyDegrees = 22.0;
+    }
+
     static const plan::Effect& emptyBricks(const support::Drawn& drawn) {
         const auto& effects = drawn.info.plan.layers[0].effects;
         return *std::ranges::find(effects, plan::kEmptyBricks, &plan::Effect::name);
@@ -45,14 +51,13 @@ TEST_F(UserShaderSkipping, DrawsWhatIsDrawnWithoutIt) {
         for (const Sampling sampling :
              {Sampling::kNearest, Sampling::kTrilinear, Sampling::kTricubic}) {
             scene::Scene scene = sceneOf(balls(), kCode, model);
-            scene.camera = {.eye = {120, 90, 150}, .center = {25, 22, 30}};
-            scene.camera.fovyDegrees = 22.0;
+            lookAtBalls(scene);
             scene.layers[0].sampling = sampling;
             scene.layers[0].interval = data::Range{.min = 0.3F, .max = 0.8F};
             const auto passed = draw(scene, {48, 40});
             const auto all = support::must(tryDraw(*passingOverNothing, scene, {48, 40}));
             EXPECT_TRUE(emptyBricks(passed).on);
-            EXPECT_EQ(passed.linear, all.linear) << scene::name(model) << ' ' << name(sampling);
+            EXPECT_EQ(passed.linear, all.linear) << scene::name(model) << ' ' << scene::name(sampling);
             EXPECT_GT(drawnShare(passed), 0.02);
             EXPECT_LT(drawnShare(passed), 0.5);
         }
@@ -71,6 +76,7 @@ TEST_F(UserShaderSkipping, ThePlanSaysWhatIsKnown) {
     EXPECT_EQ(known.info.work.bufferUploads, 2U) << "the empty space and the blocks";
     // Where all voxels of a brick lack a value there is nothing to ask of either.
     scene = sceneOf(balls(std::nan("")), kCode);
+    lookAtBalls(scene);
     const auto missing = draw(scene, {48, 40});
     EXPECT_TRUE(emptyBricks(missing).on);
     EXPECT_THAT(emptyBricks(missing).reason, HasSubstr("without any value"));

@@ -12,11 +12,10 @@ namespace volcast::support {
 /// What a ray through several channels shows, in double, and how far float32 may be from it.
 ///
 /// A picture is wrong by what its samples are: positions are off by 2^-22 of the grid units between
-/// the eye and the data, values between voxels by 4e-6 of the largest (what filtersExactly()
-/// allows). So each sample is looked at with all values that it may have, near it and between: what
-/// is emitted and absorbed by any of them differs by some amount, which is added up over the ray.
-/// That follows steps of maps, ends of intervals, walls between nearest voxels, and light where the
-/// field is nearly flat.
+/// the eye and the data, values between voxels by a part of the largest. So each sample is looked
+/// at with all values that it may have, near it and between: what is emitted and absorbed by any of
+/// them differs by some amount, which is added up over the ray. That follows steps of maps, ends of
+/// intervals, walls between nearest voxels, and light where the field is nearly flat.
 class ChannelSums {
 public:
     struct Shown {
@@ -24,15 +23,24 @@ public:
         double off = 0.0;
     };
 
+    /// Parts of the largest value that interpolated ones are off by: what filtersExactly() allows
+    /// a texture unit. In a shader three sums of two products are rounded by 2^-24 thrice each;
+    /// tricubic sums by 24 times that, of weights whose sizes add up to 2 at most.
+    static constexpr double kTextureUnit = 4e-6, kTrilinear = 9.0 / (1 << 24),
+                            kTricubic = 48.0 / (1 << 24);
+
     /// `alone`: a volume for each of the layer's channels. Keeps references.
-    ChannelSums(const scene::Layer& layer, const std::vector<data::Volume>& alone, double gridToEye)
+    ChannelSums(const scene::Layer& layer, const std::vector<data::Volume>& alone, double gridToEye,
+                double interpolation)
         : layer_{layer}, away_{gridToEye / (1 << 22)} {
         for (std::size_t i = 0; i < layer.channels.size(); ++i) {
             if (!layer.channels[i].visible) continue;
             const data::Range range = alone[i].channels[0].range;
+            const double most = std::max(std::abs(range.min), std::abs(range.max));
             channels_.push_back({.shown = &layer.channels[i],
                                  .field = VolumeReference{alone[i], layer.sampling},
-                                 .noise = 4e-6 * std::max(std::abs(range.min), std::abs(range.max)),
+                                 .most = most,
+                                 .noise = interpolation * most,
                                  .spacing = std::min({alone[i].spacing.x, alone[i].spacing.y,
                                                       alone[i].spacing.z})});
         }
@@ -75,6 +83,7 @@ private:
     struct Channel {
         const scene::ChannelMap* shown;
         VolumeReference field;
+        double most;     ///< Size of its largest value.
         double noise;    ///< Of a value between voxels.
         double spacing;  ///< The least.
     };
@@ -100,9 +109,11 @@ private:
     /// How far the light on a sample may be off, as parts of its colour and of white together.
     ///
     /// A slope is a difference over at least one interval of two values, each off by `valueOff`:
-    /// along three axes it turns by at most sqrt(3) 2 valueOff / spacing of its own length.
-    [[nodiscard]] double lightOff(const Channel& channel, const glm::dvec3& at,
-                                  double valueOff) const {
+    /// along three axes it turns by at most sqrt(3) 2 valueOff / spacing of its own length. Places
+    /// of these values are rounded once more, at up to 32 grid units; no field of the tests rises
+    /// by more than half of its largest value an interval.
+    [[nodiscard]] double lightOff(const Channel& channel, const glm::dvec3& at) const {
+        const double valueOff = channel.noise + 0.5 * channel.most * 32 / (1 << 24);
         const double slope = glm::length(channel.field.slopeAt(at));
         const double turn = std::sqrt(3.0) * 2.0 * valueOff / channel.spacing / slope;
         const double most = double{layer_.light->diffuse} + layer_.light->specular;
@@ -117,10 +128,11 @@ private:
         const double value = channel.field.valueAt(at);
         const glm::dvec2 near = channel.field.valuesNear(at, away_);
         const glm::dvec4 matter = matterOf(channel, value);
-        const auto emitted = [&](const glm::dvec4& m) {
+        const auto emitted = [&](const glm::dvec4& m, double off = 0.0) {
             const glm::dvec3 colour{m};
-            return m.a * (layer_.light ? channel.field.lit(colour, *layer_.light, at, ray.direction)
-                                       : colour);
+            if (!layer_.light) return m.a * colour;
+            return m.a *
+                   channel.field.lit(colour, *layer_.light, at + glm::dvec3(off), ray.direction);
         };
         Sample sample{.emission = emitted(matter), .extinction = matter.a};
         for (const double other : {near.x - channel.noise, near.y + channel.noise}) {
@@ -129,10 +141,13 @@ private:
             sample.emissionOff = std::max({sample.emissionOff, off.r, off.g, off.b});
             sample.extinctionOff = std::max(sample.extinctionOff, std::abs(m.a - matter.a));
         }
-        if (layer_.light && matter.a > 0.0) {
-            const double valueOff = std::max(value - near.x, near.y - value) + channel.noise;
-            sample.emissionOff += matter.a * lightOff(channel, at, valueOff);
+        if (!layer_.light || matter.a == 0.0) return sample;
+        double turned = 0.0;  // By the place of the sample.
+        for (const double off : {-away_ * channel.spacing, away_ * channel.spacing}) {
+            const glm::dvec3 by = glm::abs(emitted(matter, off) - sample.emission);
+            turned = std::max({turned, by.r, by.g, by.b});
         }
+        sample.emissionOff += turned + matter.a * lightOff(channel, at);
         return sample;
     }
 
@@ -145,8 +160,7 @@ private:
             const double value = layer_.model == scene::RayModel::kMip ? high : low;
             const glm::dvec4 matter = matterOf(channel, value);
             shown.pixel += glm::dvec4(glm::dvec3(matter), 0.0);
-            // No field of these rises by more than half of its largest value an interval.
-            const double noise = channel.noise * (1.0 + 0.5 * away_ / 4e-6);
+            const double noise = channel.noise + 0.5 * channel.most * away_;  // As above.
             for (const double other : {value - noise, value + noise}) {
                 const glm::dvec4 off = glm::abs(matterOf(channel, other) - matter);
                 shown.off += std::max({off.r, off.g, off.b});

@@ -6,6 +6,7 @@
 #include "renderer/scene/ray_models.h"
 #include "tests/gl/volume/channel_sums.h"
 #include "tests/gl/volume/channels_fixture.h"
+#include "tests/support/edited_renderers.h"
 
 namespace volcast {
 namespace {
@@ -15,17 +16,27 @@ using scene::Sampling;
 
 class Channels : public support::ChannelsTest {
 protected:
+    Channels() {
+        inShader_->addDataset(
+            "volume", support::channelsOf(support::kChannelsPlace, support::kChannelFields));
+    }
+
     /// Every pixel is as far from the sum as float32 lets its samples be, and most are not far.
-    void expectSums(const std::string& what) {
+    void expectSums(const std::string& what, bool byTextureUnit = false) {
         constexpr glm::ivec2 kSize{24, 20};
         // Sums of 100 samples are rounded by 2^-24 each, their opacities as often.
         constexpr double kRounding = 2.0 * 100 / (1 << 24);
-        const auto picture = draw(scene_, kSize);
+        const auto picture =
+            support::must(tryDraw(byTextureUnit ? *renderer_ : *inShader_, scene_, kSize));
+        const double shader = layer().sampling == Sampling::kTricubic
+                                  ? support::ChannelSums::kTricubic
+                                  : support::ChannelSums::kTrilinear;
         const double away =
             glm::length(scene_.camera.eye - scene_.camera.center) /
             std::min({support::kChannelsPlace.spacing.x, support::kChannelsPlace.spacing.y,
                       support::kChannelsPlace.spacing.z});
-        const support::ChannelSums sums{layer(), alone_, away};
+        const support::ChannelSums sums{
+            layer(), alone_, away, byTextureUnit ? support::ChannelSums::kTextureUnit : shader};
         const support::VolumeReference box{alone_[0], Sampling::kTrilinear};
         double most = 0.0, worst = 0.0;
         std::vector<double> allowed;
@@ -58,6 +69,8 @@ protected:
                                  std::to_string(allowed[allowed.size() / 2]) + " to " +
                                  std::to_string(allowed.back()));
     }
+
+    std::unique_ptr<scene::Renderer> inShader_ = support::rendererWithoutTextureUnit(device());
 };
 
 TEST_F(Channels, EveryModelIsTheSumOfItsChannels) {
@@ -65,6 +78,7 @@ TEST_F(Channels, EveryModelIsTheSumOfItsChannels) {
          {RayModel::kVolume, RayModel::kMip, RayModel::kMinip, RayModel::kXray}) {
         layer().model = model;
         expectSums(std::string{scene::name(model)});
+        expectSums(std::string{scene::name(model)} + " by the texture unit", true);
     }
 }
 
