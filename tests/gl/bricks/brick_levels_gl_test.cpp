@@ -112,8 +112,10 @@ TEST_F(BrickLevels, CoarseLevelsTakeLongerStepsAndConverge) {
             off.push_back(largestDifference(best, parts));
             EXPECT_LT(off.back(), offByLevels(step)) << scene::name(integrator) << ' ' << step;
         }
-        EXPECT_LT(off[1], off[0]) << scene::name(integrator);
-        EXPECT_LT(off[2], off[1]) << scene::name(integrator);
+        // Of second order: a quarter at half of the step, but for where control points lie in
+        // steps.
+        EXPECT_LT(off[1], off[0] / 3) << scene::name(integrator);
+        EXPECT_LT(off[2], off[1] / 3) << scene::name(integrator);
         RecordProperty(
             std::string{scene::name(integrator)},
             std::to_string(off[0]) + ' ' + std::to_string(off[1]) + ' ' + std::to_string(off[2]));
