@@ -81,6 +81,7 @@ Result<void> drawChannels(const DrawInputs& inputs, const ChannelsGpu& channels)
                                        {"kSkipBricks", inputs.plan->has(plan::kEmptyBricks)},
                                        {"kByDistance", inputs.emptySpace != nullptr},
                                        {"kShaded", inputs.plan->has(plan::kLight)},
+                                       {"kLightAtEye", isLitFromEye(*inputs.layer)},
                                        {"kInterval", inputs.plan->has(plan::kInterval)},
                                        {"kJitters", inputs.plan->has(plan::kJitter)},
                                        {"kMissing", inputs.plan->has(plan::kVoxelsWithoutValue)},

@@ -22,6 +22,7 @@ MarchTraits traitsOf(const DrawInputs& inputs) {
             .earlyStop = inputs.plan->has(plan::kEarlyStop),
             .lit = inputs.plan->has(plan::kGradient),
             .shaded = inputs.plan->has(plan::kLight),
+            .lightAtEye = isLitFromEye(*inputs.layer),
             .interval = inputs.plan->has(plan::kInterval),
             .jitters = inputs.plan->has(plan::kJitter),
             .missing = inputs.plan->has(plan::kVoxelsWithoutValue),
@@ -86,6 +87,7 @@ shading::Recipe marchRecipe(const MarchTraits& traits, std::vector<shading::Cons
                       {"kEarlyStop", traits.earlyStop},
                       {"kLit", traits.lit},
                       {"kShaded", traits.shaded},
+                      {"kLightAtEye", traits.lightAtEye},
                       {"kInterval", traits.interval},
                       {"kJitters", traits.jitters},
                       {"kMissing", traits.missing},
@@ -126,6 +128,10 @@ bool passesOverEmptySpace(const scene::Layer& layer, const plan::LayerPlan& plan
 
 bool readsRanges(const scene::Layer& layer, const plan::LayerPlan& plan) {
     return skipsWhole(plan) && followsExtremes(layer);
+}
+
+bool isLitFromEye(const scene::Layer& layer) noexcept {
+    return !layer.light || !layer.light->position;
 }
 
 void drawCover(const DrawInputs& inputs) {

@@ -70,6 +70,9 @@ bool passesOverEmptySpace(const scene::Layer& layer, const plan::LayerPlan& plan
 /// way alone.
 bool readsRanges(const scene::Layer& layer, const plan::LayerPlan& plan);
 
+/// Whether its light, if it has one, is at the eye: what tells programs of light apart.
+bool isLitFromEye(const scene::Layer& layer) noexcept;
+
 /// Draws one layer over what is in the target; one that is opaque where it is nearest. The layer
 /// block, the map and the opaque distances are bound by the caller.
 ///
@@ -91,6 +94,7 @@ struct MarchTraits {
     bool earlyStop = false;
     bool lit = false;     ///< Isosurfaces, at their hits.
     bool shaded = false;  ///< Volumes, at their samples.
+    bool lightAtEye = true;
     bool interval = false;
     bool jitters = false;  ///< Samples are not in the middle of their steps.
     bool missing = false;  ///< Some voxels have no value.

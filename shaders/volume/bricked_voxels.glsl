@@ -43,6 +43,7 @@ Page page = Page(vec3(1.0), vec3(0.0), vec2(0.0), 0, ivec3(0), ivec3(0), 0.0,
 // Computed before any loop, because llvmpipe reads a uniform again in each round: see
 // classify/transfer_function.glsl.
 ivec3 gridLast = ivec3(layer.grid.xyz + max(-gl_FragCoord.x, 0.0)) - 1;
+mat3 worldFromSlope = transpose(mat3(layer.gridFromData)) + max(-gl_FragCoord.x, 0.0);
 float voxelShift = intBitsToFloat(texelFetch(brickTree, kTreeHead).x);
 
 ivec3 lastPoint(int level) {
@@ -212,7 +213,7 @@ vec3 normalAt(vec3 at) {
     vec3 extent = gridFromLevel(high) - gridFromLevel(low);
     // Quarters, because the difference of two large values may not be a number.
     vec3 slope = (0.25 * above - 0.25 * below) / max(extent, vec3(0.5));
-    return unit(transpose(mat3(layer.gridFromData)) * unit(slope));
+    return unit(worldFromSlope * scaledToOne(slope));
 }
 
 float valueAndNormal(vec3 at, out vec3 normal) {

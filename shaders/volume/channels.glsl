@@ -9,6 +9,10 @@ layout(binding = kVoxelUnit) uniform sampler3D channelVoxels;
 const int kNearest = 0;
 const int kTricubic = 2;
 
+// Computed before any loop, because llvmpipe reads a uniform again in each round: see
+// classify/transfer_function.glsl.
+mat3 worldFromSlope = transpose(mat3(layer.gridFromData)) + max(-gl_FragCoord.x, 0.0);
+
 ivec3 lastChannelPoint() {
     return ivec3(layer.grid.xyz) - 1;
 }
@@ -90,9 +94,8 @@ vec4 channelSlopes(int axis, vec3 at) {
 // The direction in which each channel rises most, of length 1 in the world; 0 where it is flat.
 mat4x3 channelNormals(vec3 at) {
     vec4 x = channelSlopes(0, at), y = channelSlopes(1, at), z = channelSlopes(2, at);
-    mat3 worldFromSlope = transpose(mat3(layer.gridFromData));
-    return mat4x3(unit(worldFromSlope * unit(vec3(x.x, y.x, z.x))),
-                  unit(worldFromSlope * unit(vec3(x.y, y.y, z.y))),
-                  unit(worldFromSlope * unit(vec3(x.z, y.z, z.z))),
-                  unit(worldFromSlope * unit(vec3(x.w, y.w, z.w))));
+    return mat4x3(unit(worldFromSlope * scaledToOne(vec3(x.x, y.x, z.x))),
+                  unit(worldFromSlope * scaledToOne(vec3(x.y, y.y, z.y))),
+                  unit(worldFromSlope * scaledToOne(vec3(x.z, y.z, z.z))),
+                  unit(worldFromSlope * scaledToOne(vec3(x.w, y.w, z.w))));
 }

@@ -124,42 +124,8 @@ void narrow(inout RayState state, March march) {
     stepRay(state, last);
 }
 
-// Whether a sample is there, in the interval, and has matter.
-bool isSeen(float value) {
-    bool counts = !kInterval || (value >= layer.gather.z && value <= layer.gather.w);
-    return counts && !lacksValue(value) && matterAt(value, value).a > 0.0;
-}
-
-// Under a light, of a map that is transparent in parts: takes the steps from `i` to `beyond`. Slopes are
-// dear, and llvmpipe finds them for all rays that run side by side if it does for one: each of these first
-// goes on to its next sample that is seen.
-bool takeLitSteps(inout RayState state, Ray ray, March march, inout int i, int beyond) {
-    bool finished = false;
-    do {
-        int count = 1;
-        float at = 0.0, value = 0.0;
-        bool seen = false;
-        do {
-            count = stepsAsOne(march, i, beyond);
-            at = distanceOf(march, float(i) + float(count) * share);
-            value = valueAt(positionAt(march, at));
-            seen = isSeen(value);
-            i += seen ? 0 : count;
-        } while (!seen && i < beyond);
-        if (seen) {
-            vec3 normal = normalAt(positionAt(march, at));
-            pieceLight = lightOn(normal, ray.origin + at * ray.direction, -ray.direction);
-            Segment piece = sampledPiece(value, value, float(count) * march.dt, distanceOf(march, float(i)));
-            finished = stepRay(state, piece) && kEarlyStop;
-            i += count;
-        }
-    } while (i < beyond && !finished);
-    return finished;
-}
-
 // Takes the steps from `i` to `beyond` or so, or until nothing behind can show. At least one is left.
 bool takeSteps(inout RayState state, inout float value, Ray ray, March march, inout int i, int beyond) {
-    if (kShaded && kSkipBricks && !kPieces) return takeLitSteps(state, ray, march, i, beyond);
     bool finished = false;
     // Several a round where that is right: it saves most of what a round costs, and while one waits for
     // memory others are looked up.

@@ -24,6 +24,7 @@ const int kPairsI16 = 3;
 // Computed before any loop, because llvmpipe reads a uniform again in each round: see
 // classify/transfer_function.glsl.
 ivec3 gridLast = ivec3(layer.grid.xyz + max(-gl_FragCoord.x, 0.0)) - 1;
+mat3 worldFromSlope = transpose(mat3(layer.gridFromData)) + max(-gl_FragCoord.x, 0.0);
 ivec2 blocks = (gridLast.xy + 5) / 4 | 1;
 // Texels from one block to the next, less those that are counted within a block.
 int nextRow = 64 * blocks.x - 16;
@@ -148,14 +149,14 @@ int stepsASample(vec3 at, vec3 step) {
 vec3 normalOf(vec3 extent, vec3 above, vec3 below) {
     // Quarters, because the difference of two large values may not be a number.
     vec3 slope = (0.25 * above - 0.25 * below) / max(extent, vec3(0.5));
-    return unit(transpose(mat3(layer.gridFromData)) * unit(slope));
+    return unit(worldFromSlope * scaledToOne(slope));
 }
 
 // The direction in which the field rises most, of length 1 in the world; 0 where it is flat. By
 // central differences over a grid interval to each side; at a face of the box one side is shorter.
 vec3 normalAt(vec3 at) {
     vec3 low = max(at - 1.0, vec3(0.0));
-    vec3 high = min(at + 1.0, layer.grid.xyz - 1.0);
+    vec3 high = min(at + 1.0, vec3(gridLast));
     vec3 above = vec3(valueAt(vec3(high.x, at.yz)), valueAt(vec3(at.x, high.y, at.z)),
                       valueAt(vec3(at.xy, high.z)));
     vec3 below = vec3(valueAt(vec3(low.x, at.yz)), valueAt(vec3(at.x, low.y, at.z)),
@@ -194,7 +195,7 @@ float valueAndNormal(vec3 at, out vec3 normal) {
                        bilinear(face(ivec3(low.xy, z.w)), t.xy));
     vec3 above = mix(vec3(alongX.z, alongY.z, alongZ.z), vec3(alongX.w, alongY.w, alongZ.w), t);
     vec3 below = mix(vec3(alongX.x, alongY.x, alongZ.x), vec3(alongX.y, alongY.y, alongZ.y), t);
-    vec3 extent = min(at + 1.0, layer.grid.xyz - 1.0) - max(at - 1.0, vec3(0.0));
+    vec3 extent = min(at + 1.0, vec3(gridLast)) - max(at - 1.0, vec3(0.0));
     normal = normalOf(extent, above, below);
     return mix(alongX.y, alongX.z, t.x);
 }

@@ -23,6 +23,7 @@ inline volume::MarchTraits marchTraits(const scene::RayModelRow& row, int varian
             .earlyStop = bit(2),
             .lit = bit(4) && row.model == scene::RayModel::kIsosurface,
             .shaded = bit(2) && row.model == scene::RayModel::kVolume,
+            .lightAtEye = bit(3) != bit(0),
             .interval = bit(4) != bit(1),
             .jitters = first && bit(3),
             .missing = bit(0) != bit(4),

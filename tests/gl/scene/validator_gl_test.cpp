@@ -373,6 +373,7 @@ void Validator::addOtherPasses() {
                                            {"kSkipBricks", bit(variant, 1)},
                                            {"kByDistance", bit(variant, 1) && bit(variant, 3)},
                                            {"kShaded", bit(variant, 2)},
+                                           {"kLightAtEye", bit(variant, 3)},
                                            {"kInterval", bit(variant, 3)},
                                            {"kJitters", bit(variant, 4)},
                                            {"kMissing", bit(variant, 0)},

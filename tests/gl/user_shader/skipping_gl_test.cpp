@@ -57,7 +57,8 @@ TEST_F(UserShaderSkipping, DrawsWhatIsDrawnWithoutIt) {
             const auto passed = draw(scene, {48, 40});
             const auto all = support::must(tryDraw(*passingOverNothing, scene, {48, 40}));
             EXPECT_TRUE(emptyBricks(passed).on);
-            EXPECT_EQ(passed.linear, all.linear) << scene::name(model) << ' ' << scene::name(sampling);
+            EXPECT_EQ(passed.linear, all.linear)
+                << scene::name(model) << ' ' << scene::name(sampling);
             EXPECT_GT(drawnShare(passed), 0.02);
             EXPECT_LT(drawnShare(passed), 0.5);
         }

@@ -170,8 +170,12 @@ TEST_F(VolumeLight, WithoutALightNothingOfItIsCompiledIn) {
     EXPECT_TRUE(ambient.info.plan.layers[0].has(plan::kLight));
     EXPECT_EQ(ambient.info.work.programsBuilt, 1) << "another program";
     EXPECT_EQ(ambient.linear, unlit.linear);
-    scene_.layers[0].light->position = glm::dvec3(1, 2, 3);
+    scene_.layers[0].light->diffuse = 0.5F;
     EXPECT_EQ(draw(scene_, {16, 16}).info.work.programsBuilt, 0) << "numbers of a light";
+    scene_.layers[0].light->position = glm::dvec3(1, 2, 3);
+    EXPECT_EQ(draw(scene_, {16, 16}).info.work.programsBuilt, 1) << "from a place";
+    scene_.layers[0].light->position->x = 9.0;
+    EXPECT_EQ(draw(scene_, {16, 16}).info.work.programsBuilt, 0) << "numbers of a place";
 }
 
 }  // namespace
