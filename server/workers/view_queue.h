@@ -41,6 +41,8 @@ public:
     std::optional<TimedRequest> next();
     /// `drawn` is now the view's last good request.
     void succeeded(RenderRequest drawn);
+    /// The newest good request of all views; null where there is none.
+    [[nodiscard]] const RenderRequest* lastDrawn() const;
     /// The worker refused the request, and lived.
     void refused(std::uint64_t view);
 
@@ -80,6 +82,7 @@ private:
 
     std::map<std::uint64_t, View> views_;
     std::deque<std::uint64_t> turns_;  ///< Views with a waiting request, each once.
+    std::uint64_t lastDrawn_ = 0;      ///< View of the newest good request.
 };
 
 }  // namespace volcast::workers
