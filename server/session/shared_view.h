@@ -157,6 +157,7 @@ private:
     [[nodiscard]] bool mayDraw(const std::shared_ptr<Rendition>& rendition) const;
     void draw(const std::shared_ptr<Rendition>& rendition, TimePoint now);
     void settle(std::uint64_t tag);
+    void pacedBy(const workers::RenderedFrame& frame, const RenditionKey& key);
 
     void measureNext();
     void stopMeasuring(const std::string& why);
@@ -182,6 +183,7 @@ private:
 
     std::vector<std::shared_ptr<Rendition>> renditions_;  ///< The one drawn last is last.
     std::shared_ptr<Rendition> drawing_;  ///< Whose request is at the render service.
+    DrawPace drawPace_;
     std::uint64_t lastTag_ = 0;
     std::uint64_t lastPicture_ = 0;
     Counts counts_;
