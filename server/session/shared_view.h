@@ -126,6 +126,8 @@ private:
     void picked(std::uint64_t tag, const Result<std::optional<scene::Picked>>& result);
 
     // The scene, shared_view.cpp. `author`: who did it, and knows; 0: nobody.
+    bool answerAgain(Viewer& viewer, scene::PictureSize size, std::uint64_t resizedBy,
+                     TimePoint now);
     void apply(SceneChange change, TimePoint now, ViewerId author, bool cameraOnly = false);
     [[nodiscard]] v1::ServerMessage sceneMessage(ViewerId author, bool cameraOnly) const;
     void tellScene(ViewerId author, bool cameraOnly);

@@ -65,8 +65,11 @@ void SharedView::draw(const std::shared_ptr<Rendition>& rendition, TimePoint now
     std::ranges::stable_partition(renditions_,
                                   [&rendition](const auto& one) { return one != rendition; });
     ++counts_.drawsAsked;
-    workers::RenderRequest request{
-        .view = global_, .tag = lastTag_, .scene = *state_.scene, .size = rendition->key().size};
+    workers::RenderRequest request{.view = global_,
+                                   .tag = lastTag_,
+                                   .scene = *state_.scene,
+                                   .size = rendition->key().size,
+                                   .viewId = id_};
     if (!rendition->key().fullAccuracy) {
         request.scene.accuracy = {.kind = scene::Accuracy::Kind::kFastest};
     }

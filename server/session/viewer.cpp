@@ -70,7 +70,13 @@ bool Viewer::hasNewPicture() const {
 }
 
 bool Viewer::waits() const {
-    return rendition->wants() || hasNewPicture();
+    return rendition->wants() || hasNewPicture() || sendsAgain_;
+}
+
+bool Viewer::shows(const std::shared_ptr<const scene::Scene>& scene) const {
+    return state == v1::VIEW_STATE_ACTIVE && rendition->settled() && !hasNewPicture() &&
+           rendition->picture()->scene == scene && rendition->picture()->key == wanted() &&
+           (exact_ || !isVideo(interactive().codec));
 }
 
 bool Viewer::owes() const {
@@ -122,6 +128,11 @@ std::shared_ptr<Encoding> Viewer::takeEncode(TimePoint now) {
         taken_ = rendition->picture()->number;
         again_ = false;
         pacing_.started(now);
+    } else if (sendsAgain_ && rendition->settled()) {
+        if (now < pacing_.nextStart()) return nullptr;
+        format = exact_ ? Format{.codec = desc_.codecs.lossless(slowWay())} : interactive();
+        again_ = true;
+        pacing_.started(now);
     } else if (owesLossless() && now >= calmAt()) {
         format.codec = desc_.codecs.lossless(slowWay());
         again_ = true;
@@ -169,6 +180,9 @@ v1::FrameHeader Viewer::headerOf(const Encoding& encoding, TimePoint now) const 
     if (key == wanted() || key == full()) {
         header.set_input_seq(std::max(header.input_seq(), resizedBy_));
     }
+    if (encoding.picture->scene == stays_.scene) {
+        header.set_input_seq(std::max(header.input_seq(), stays_.seq));
+    }
     header.set_codec(encoding.format.codec);
     header.set_lossless(isLossless(encoding.format.codec));
     header.set_keyframe(encoding.group && encoding.keyframe);
@@ -196,6 +210,7 @@ std::optional<ReadyFrame> Viewer::takeFrame(TimePoint now) {
     sent_.push_back({.inputSeq = frame.header.input_seq(),
                      .size = encoding_->picture->pixels->size,
                      .scene = encoding_->picture->scene});
+    if (frame.header.input_seq() >= stays_.seq) sendsAgain_ = false;
     encoding_.reset();
     again_ = false;
     pacing_.sent(frame.sequence, frame.payload->size(), now);

@@ -73,6 +73,15 @@ public:
     void moveTo(std::shared_ptr<Rendition> to);
     [[nodiscard]] scene::PictureSize size() const noexcept { return desc_.size; }
 
+    /// The newest picture is of this very scene as wanted, was sent, and nothing is on its way
+    /// that is to replace it. Not where it is part of a video, which no picture may enter twice.
+    [[nodiscard]] bool shows(const std::shared_ptr<const scene::Scene>& scene) const;
+    /// Inputs up to `seq` left the scene as it is: frames of it say so.
+    void stays(std::shared_ptr<const scene::Scene> scene, std::uint64_t seq) {
+        stays_ = {.scene = std::move(scene), .seq = seq};
+    }
+    /// The newest picture is to be sent once more, as it was.
+    void sendAgain() noexcept { sendsAgain_ = true; }
     /// Somebody did something: a lossless frame waits for calm from now on.
     void input(TimePoint now);
     /// A picture drawn now would soon be sent.
@@ -141,6 +150,11 @@ private:
     Rendition::InVideo video_;
     std::size_t losslessBytes_ = 0;  ///< Of its last lossless frame.
     std::uint64_t resizedBy_ = 0;
+    struct {
+        std::shared_ptr<const scene::Scene> scene;
+        std::uint64_t seq = 0;
+    } stays_;
+    bool sendsAgain_ = false;
     TimePoint lastInput_{};
     std::uint64_t taken_ = 0;             ///< Number of the picture it took last.
     std::uint64_t shownSeq_ = 0;          ///< Newest input that it was sent a picture of.

@@ -8,6 +8,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include "renderer/base/printable.h"
 #include "renderer/worker/exit_codes.h"
 #include "renderer/worker/frame_message.h"
 #include "renderer/worker/measure_message.h"
@@ -217,9 +218,9 @@ void Supervisor::becomeReady(Worker& worker) {
     startError_.reset();
     backOff_.succeeded();
     software_ = worker->about().software();
-    spdlog::info("GL worker {} ready after {:.0f} ms: {} ({})", worker->pid(),
-                 worker->about().start_ms(), worker->about().gl_renderer(),
-                 &worker == &main_ ? "drawing" : "spare");
+    spdlog::info(R"(event=worker_ready worker={} role={} start_ms={:.0f} gl_renderer="{}")",
+                 worker->pid(), &worker == &main_ ? "drawing" : "spare", worker->about().start_ms(),
+                 base::printable(worker->about().gl_renderer()));
     if (&worker == &spare_) worker->warmUp(0, settings_.startDeadline);
 }
 
@@ -267,7 +268,8 @@ void Supervisor::finish(const internal::v1::Rendered& rendered) {
 void Supervisor::refuse(const internal::v1::Failed& failed) {
     Error error = worker::errorFrom(failed);
     if (failed.request() == 0) {
-        spdlog::error("dataset {}: {}", failed.dataset(), error.message);
+        spdlog::error(R"(event=dataset_refused dataset="{}" error="{}")",
+                      base::printable(failed.dataset()), base::printable(error.message, 1000));
         return;
     }
     if (measures_.inHand()) return finishMeasure(failed.request(), error);
@@ -350,6 +352,7 @@ RenderStatus Supervisor::status() const {
         status.glRenderer = main_->about().gl_renderer();
         status.glVersion = main_->about().gl_version();
     }
+    status.viewsWaiting = views_.waiting();
     status.lastLoss = lastLoss_;
     status.gpuGivenUp = gpuGivenUp_;
     return status;

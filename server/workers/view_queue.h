@@ -37,6 +37,8 @@ public:
     void drop(std::uint64_t view);
     [[nodiscard]] bool knows(std::uint64_t view) const { return views_.contains(view); }
 
+    /// Views with a request that has not been taken.
+    [[nodiscard]] std::size_t waiting() const noexcept { return turns_.size(); }
     /// Takes the request whose turn it is. It is in flight until one of the calls below.
     std::optional<TimedRequest> next();
     /// `drawn` is now the view's last good request.
