@@ -75,6 +75,8 @@ public:
     void undo(ViewerId viewer, const v1::Undo& message, TimePoint now);
     void takeControl(ViewerId viewer);
     void handOver(ViewerId viewer, std::uint32_t person);
+    void askControl(ViewerId viewer, bool withdraw);
+    void rename(ViewerId viewer, const std::string& name);
     /// Empty where the viewer may share the view, else why not.
     [[nodiscard]] std::string whyNotSharing(ViewerId viewer) const;
     std::optional<v1::ServerMessage> takeMail(ViewerId viewer);
