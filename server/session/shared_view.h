@@ -131,6 +131,8 @@ private:
     void apply(SceneChange change, TimePoint now, ViewerId author, bool cameraOnly = false);
     [[nodiscard]] v1::ServerMessage sceneMessage(ViewerId author, bool cameraOnly) const;
     void tellScene(ViewerId author, bool cameraOnly);
+    /// One viewer hears of the scene as it is, and of the newest input.
+    void tellScene(Viewer& viewer);
     /// There is something new to save.
     void changed();
     void sceneNews(const std::string& dataset, TimePoint now);

@@ -131,12 +131,7 @@ void SharedView::peopleChanged(ViewerId steered) {
         spdlog::info(R"(event=control_taken view={} person={})", id_,
                      people_.at(people_.steering()).person);
         viewer->resize(viewer->size(), 0);
-        if (state_.scene && viewer->opened) {
-            v1::ServerMessage message = sceneMessage(0, false);
-            message.mutable_scene_changed()->set_input_seq(scene_.inputSeq());
-            message.mutable_scene_changed()->set_view(viewer->number());
-            tell(*viewer, std::move(message));
-        }
+        if (state_.scene && viewer->opened) tellScene(*viewer);
     }
     tellPeople();
     changed();

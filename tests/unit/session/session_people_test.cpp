@@ -118,6 +118,10 @@ TEST_F(SessionPeople, AWatcherSeesTheCameraMoveButMayNotMoveIt) {
     ASSERT_TRUE(refused.has_value());
     EXPECT_EQ(refused->code(), v1::ERROR_CODE_NOT_PERMITTED);
     EXPECT_EQ(refused->input_seq(), 9U);
+    const auto asItIs = ben->sceneChanged();
+    ASSERT_TRUE(asItIs.has_value()) << "who is refused hears what the view shows";
+    EXPECT_EQ(asItIs->scene().camera().eye().x(), 5.0);
+    EXPECT_EQ(asItIs->input_seq(), 2U);
     ben->undo();
     EXPECT_EQ(ben->error()->code(), v1::ERROR_CODE_NOT_PERMITTED);
     EXPECT_TRUE(ann->never([](const auto& one) { return one.has_scene_changed(); }));
