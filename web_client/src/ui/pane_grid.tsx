@@ -73,6 +73,7 @@ export function PaneGrid({ panes, portOf }: Props) {
             />
             <Overlays state={pane.state} />
             <PickedLine state={pane.state} />
+            {several && active && <div class="pane-frame" />}
             {several && <PaneHead pane={pane} number={i + 1} active={active} port={portOf(pane)} />}
           </section>
         );
