@@ -1,6 +1,7 @@
 import { type ReadonlySignal, type Signal, signal } from "@preact/signals";
 import { openPane, type Pane, type PaneBeginning, type PanePort } from "./pane";
 import { steers } from "./state/people";
+import type { Orbit } from "./view/camera";
 import { linkedOrbit } from "./view/linked";
 
 export const kMostPanes = 4;
@@ -15,8 +16,8 @@ export class Panes {
   readonly linked = signal(true);
   readonly #active: Signal<Pane>;
   readonly #page: Page;
-  /** True while cameras go along with one that moved. */
-  #following = false;
+  /** Cameras that went along with one that moved: they lead no others. */
+  readonly #following = new WeakSet<Orbit>();
 
   /** Opens at least one view. */
   constructor(page: Page, beginnings: readonly PaneBeginning[]) {
@@ -64,23 +65,31 @@ export class Panes {
   }
 
   #moved(from: Pane): void {
-    if (this.#following || !this.linked.value) return;
-    this.#following = true;
+    const orbit = from.state.orbit.value;
+    if (!this.linked.value || !orbit || this.#following.has(orbit)) return;
     for (const pane of this.all.value) {
-      if (pane !== from && steers(pane.state)) follow(pane, from);
+      if (pane === from || !steers(pane.state)) continue;
+      const next = seenAlike(pane, from);
+      if (!next) continue;
+      this.#following.add(next);
+      pane.state.orbit.value = next;
     }
-    this.#following = false;
   }
 
   #opened(pane: Pane): void {
     const other = this.all.value.find((p) => p !== pane);
-    if (this.linked.value && other) pane.adopt(() => follow(pane, other));
+    const orbit = this.linked.value && other && seenAlike(pane, other);
+    if (!orbit) return;
+    this.#following.add(orbit);
+    pane.adopt(() => {
+      pane.state.orbit.value = orbit;
+    });
   }
 }
 
-/** Looks at the data of `pane` as `from` looks at its own. */
-function follow({ state }: Pane, { state: from }: Pane): void {
+/** The camera that looks at the data of `pane` as `from` looks at its own. */
+function seenAlike({ state }: Pane, { state: from }: Pane): Orbit | undefined {
   const { orbit, home } = from;
-  if (!orbit.value || !home.value || !state.home.value) return;
-  state.orbit.value = linkedOrbit(orbit.value, home.value, state.home.value);
+  if (!orbit.value || !home.value || !state.home.value) return undefined;
+  return linkedOrbit(orbit.value, home.value, state.home.value);
 }

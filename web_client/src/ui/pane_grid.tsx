@@ -41,7 +41,9 @@ function PaneHead({ pane, number, active, port }: HeadProps) {
         onClick={() => port.activate(key)}
       >
         <span class="pane-dot" data-state={badge.kind} aria-hidden="true" />
-        {number}: {state.dataset.value?.name ?? "Loading"}
+        <span class="pane-label">
+          {number}: {state.dataset.value?.name ?? "Loading"}
+        </span>
         <span class="spoken">, {badge.label}</span>
       </button>
       <IconButton icon="close" label={`Close view ${number}`} onClick={() => port.closeView(key)} />
