@@ -181,14 +181,13 @@ describe("two in one view", () => {
     await ben.page.locator(".picture").nth(1).waitFor();
     await ben.settled();
     const own = hashOf(await ben.pixels(1));
+    const second = ben.page.locator(".picture").nth(1);
+    const before = Number(await second.getAttribute("data-input-seq"));
     await ann.after(() => ann.drag(100, 0));
-    await ben.page.waitForFunction(
-      (seq) => {
-        const [, second] = document.querySelectorAll<HTMLElement>(".picture");
-        return Number(second?.dataset.inputSeq) > seq && second?.dataset.lossless === "true";
-      },
-      Number(await ben.page.locator(".picture").nth(1).getAttribute("data-input-seq")),
-    );
+    await ben.page.waitForFunction((seq) => {
+      const [, picture] = document.querySelectorAll<HTMLElement>(".picture");
+      return Number(picture?.dataset.inputSeq) > seq && picture?.dataset.exact === "true";
+    }, before);
     await ben.settled();
     expect(hashOf(await ben.pixels(1))).not.toBe(own);
   });
