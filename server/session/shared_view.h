@@ -75,6 +75,8 @@ public:
     void undo(ViewerId viewer, const v1::Undo& message, TimePoint now);
     void takeControl(ViewerId viewer);
     void handOver(ViewerId viewer, std::uint32_t person);
+    void askControl(ViewerId viewer, bool withdraw);
+    void rename(ViewerId viewer, const std::string& name);
     /// Empty where the viewer may share the view, else why not.
     [[nodiscard]] std::string whyNotSharing(ViewerId viewer) const;
     std::optional<v1::ServerMessage> takeMail(ViewerId viewer);
@@ -131,6 +133,8 @@ private:
     void apply(SceneChange change, TimePoint now, ViewerId author, bool cameraOnly = false);
     [[nodiscard]] v1::ServerMessage sceneMessage(ViewerId author, bool cameraOnly) const;
     void tellScene(ViewerId author, bool cameraOnly);
+    /// One viewer hears of the scene as it is, and of the newest input.
+    void tellScene(Viewer& viewer);
     /// There is something new to save.
     void changed();
     void sceneNews(const std::string& dataset, TimePoint now);
