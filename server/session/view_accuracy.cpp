@@ -33,11 +33,24 @@ void ViewAccuracy::start(const scene::Scene& scene, scene::PictureSize size, std
     candidates_ = accuracy::candidates(scene, volumes);
     rows_.clear();
     ++tag_;
+    estimates_ = false;
+    refusal_.clear();
     running_ = !candidates_.empty();
+}
+
+void ViewAccuracy::startEstimates(const scene::Scene& scene, scene::PictureSize size) {
+    start(scene, size, 0, {});
+    if (!running_) return;
+    estimates_ = true;
+    scene_.accuracy = {.kind = scene::Accuracy::Kind::kErrorBound, .bound = 1.0};
+    for (scene::Layer& layer : scene_.layers) layer.integrator = scene::Integrator::kAuto;
 }
 
 accuracy::Job ViewAccuracy::job(std::uint64_t& tag) const {
     tag = tag_;
+    if (estimates_) {
+        return {.scene = scene_, .size = size_, .aim = accuracy::Aim::kEstimates};
+    }
     return {.scene = scene_,
             .size = size_,
             .candidate = candidates_.at(rows_.size()),
@@ -47,6 +60,35 @@ accuracy::Job ViewAccuracy::job(std::uint64_t& tag) const {
 
 bool ViewAccuracy::measured(std::uint64_t tag, const Result<accuracy::Measurement>& result) {
     if (!running_ || tag != tag_) return false;
+    ++tag_;
+    if (!estimates_) {
+        take(result);
+        running_ = rows_.size() < candidates_.size();
+        return true;
+    }
+    if (result) takeEstimates(result->estimates);
+    if (!result) refusal_ = result.error().message;
+    running_ = false;
+    return true;
+}
+
+void ViewAccuracy::takeEstimates(const plan::SceneEvidence& estimates) {
+    for (const scene::Layer& layer : scene_.layers) {
+        const auto found = estimates.find(layer.id);
+        if (found == estimates.end()) continue;
+        for (const plan::Evidence& one : found->second) {
+            if (!one.error) continue;
+            v1::AccuracyRow& row = rows_.emplace_back();
+            row.set_layer(layer.id);
+            row.set_model(worker::toMessage(layer.model));
+            row.set_integrator(worker::toMessage(one.integrator));
+            row.set_max_error(*one.error / 255.0);
+            row.set_median_ms(one.predictedMs.value_or(0.0));
+        }
+    }
+}
+
+void ViewAccuracy::take(const Result<accuracy::Measurement>& result) {
     const accuracy::Candidate& candidate = candidates_.at(rows_.size());
     const scene::Layer& layer = scene_.layers.at(candidate.layer);
     v1::AccuracyRow& row = rows_.emplace_back();
@@ -59,20 +101,21 @@ bool ViewAccuracy::measured(std::uint64_t tag, const Result<accuracy::Measuremen
     } else {
         row.set_refusal(result.error().message);
     }
-    ++tag_;
-    running_ = rows_.size() < candidates_.size();
-    return true;
 }
 
 v1::AccuracyReport ViewAccuracy::report(std::uint32_t view) const {
     v1::AccuracyReport report;
     report.set_view(view);
     report.set_done(!running_);
-    report.set_progress(candidates_.empty() ? 1.0
-                                            : static_cast<double>(rows_.size()) /
-                                                  static_cast<double>(candidates_.size()));
+    report.set_estimated(estimates_);
+    report.set_stopped(refusal_);
+    report.set_progress(candidates_.empty() || (estimates_ && !running_)
+                            ? 1.0
+                            : static_cast<double>(rows_.size()) /
+                                  static_cast<double>(candidates_.size()));
     for (const v1::AccuracyRow& row : rows_) {
         v1::AccuracyRow& added = *report.add_rows() = row;
+        if (estimates_) continue;  // Their mean errors are not known.
         added.set_on_front(row.refusal().empty() &&
                            std::ranges::none_of(rows_, [&row](const v1::AccuracyRow& other) {
                                return other.refusal().empty() && other.layer() == row.layer() &&

@@ -23,6 +23,8 @@ public:
     /// `volumes`: ids of its datasets that are voxels.
     void start(const scene::Scene& scene, scene::PictureSize size, std::uint64_t pixels,
                const std::set<std::string>& volumes);
+    /// Begins anew, with what plans with bounds go by.
+    void startEstimates(const scene::Scene& scene, scene::PictureSize size);
     [[nodiscard]] bool running() const noexcept { return running_; }
     /// The job to measure now; needs running(). `tag` comes back with its result.
     [[nodiscard]] accuracy::Job job(std::uint64_t& tag) const;
@@ -34,7 +36,12 @@ public:
     [[nodiscard]] v1::AccuracyReport report(std::uint32_t view) const;
 
 private:
+    void takeEstimates(const plan::SceneEvidence& estimates);
+    void take(const Result<accuracy::Measurement>& result);
+
     bool running_ = false;
+    bool estimates_ = false;
+    std::string refusal_;    ///< Why there are no estimates.
     std::uint64_t tag_ = 0;  ///< Of the job under way; never used twice.
     scene::Scene scene_;
     scene::PictureSize size_{1};

@@ -32,6 +32,7 @@ struct RenderRequest {
     scene::Scene scene;
     scene::PictureSize size{512, 512};
     bool wantFloat = false;
+    bool background = false;  ///< Drawn when no view waits for a picture.
 };
 
 /// One candidate of a picture to measure, in the name of a view.

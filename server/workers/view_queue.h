@@ -37,7 +37,8 @@ public:
     void drop(std::uint64_t view);
     [[nodiscard]] bool knows(std::uint64_t view) const { return views_.contains(view); }
 
-    /// Takes the request whose turn it is. It is in flight until one of the calls below.
+    /// Takes the request whose turn it is, one in the background where there is no other. It is in
+    /// flight until one of the calls below.
     std::optional<TimedRequest> next();
     /// `drawn` is now the view's last good request.
     void succeeded(RenderRequest drawn);
