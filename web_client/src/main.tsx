@@ -15,12 +15,15 @@ import {
   undo,
 } from "./state/actions";
 import { createAppState, notify, type PictureInfo } from "./state/app_state";
+import { needsComparison } from "./state/difference";
 import type { ViewDocument } from "./state/document";
 import { keepDocument, keptDocument } from "./state/keeper";
+import { atRest, followThumbnails, ThumbnailKeeper, thumbnailSize } from "./state/model_thumbnails";
 import { Recorder, type Stages } from "./state/recorder";
 import { keepSample, sampleOf } from "./state/samples";
 import { codeToDescribe } from "./state/shader_actions";
 import { followShownOrbit } from "./state/shown_orbit";
+import { followTime } from "./state/time_steps";
 import { keepOptions, switched, type ViewOption } from "./state/view_options";
 import { App } from "./ui/app";
 import type { AppPort } from "./ui/port";
@@ -84,15 +87,33 @@ const session = new Session(address, state, codecsHere(), {
   },
   patch: (frame) => screen.tryPatch(encodedPicture(frame, 0)),
   opened(scene) {
+    thumbnails.lost();
     adopt(() => adoptScene(state, scene));
     shownOrbit.opened();
     if (state.orbit.value !== state.home.value) session.mark("camera");
   },
+  thumbnail(answer) {
+    if (thumbnails.answered(answer) && atRest(state)) thumbnails.advance();
+  },
   restored(document) {
+    thumbnails.lost();
     adopt(() => restoreDocument(state, document));
     shownOrbit.opened();
   },
   current: () => currentDocument(state),
+});
+
+const thumbnails = new ThumbnailKeeper(state, (request, scene) => {
+  const { width, height } = thumbnailSize(devicePixelRatio);
+  return session.drawThumbnail(request, scene, width, height);
+});
+followThumbnails(state, thumbnails);
+followTime(state, {
+  now: () => performance.now(),
+  after: (ms, run) => void setTimeout(run, ms),
+});
+effect(() => {
+  if (needsComparison(state)) untracked(() => session.compare());
 });
 
 function encodedPicture({ prefix, header, payload }: Frame, receivedAt: number): EncodedPicture {
@@ -214,6 +235,12 @@ const port: AppPort = {
   explain: () => session.explain(),
   measureAccuracy: () => session.measureAccuracy(),
   stopMeasuring: () => session.stopMeasuring(),
+  estimate: () => session.estimate(),
+  compare(on) {
+    if (!on) session.stopComparing();
+    state.comparing.value = on;
+    if (!on) state.difference.value = undefined;
+  },
   toggle: (name) => toggleOption(name),
   toggleFullscreen() {
     const change = document.fullscreenElement

@@ -121,7 +121,7 @@ export class Client {
   async #coverPicture(visibility: "hidden" | ""): Promise<void> {
     await this.page.evaluate((value) => {
       for (const part of document.querySelectorAll<HTMLElement>(
-        ".tools, .readout, .picked, .notices, .overlay, .hud",
+        ".tools, .readout, .picked, .notices, .overlay, .hud, .difference",
       )) {
         part.style.visibility = value;
       }

@@ -1,6 +1,12 @@
 import { create, fromBinary, type MessageInitShape, toBinary } from "@bufbuild/protobuf";
-import { measuringBegan, measuringEnded, measuringReported } from "../state/accuracy";
+import {
+  estimatingBegan,
+  measuringBegan,
+  measuringEnded,
+  measuringReported,
+} from "../state/accuracy";
 import { type AppState, type Edit, notify } from "../state/app_state";
+import { comparingBegan, comparisonEnded, comparisonReported } from "../state/difference";
 import type { ViewDocument } from "../state/document";
 import { sentenceOf } from "../state/refusal";
 import { cameraMessage, sceneMessage } from "../state/scene_message";
@@ -17,6 +23,8 @@ import {
   type PinsSchema,
   type ServerMessage,
   ServerMessageSchema,
+  type Thumbnail,
+  ThumbnailSchema,
   ViewState,
   type ViewStatus,
 } from "./gen/volcast/v1/session_pb";
@@ -34,6 +42,8 @@ export interface SessionEvents {
   opened(scene: Scene): void;
   /** A view was opened with a document that was not shown before. */
   restored(document: ViewDocument): void;
+  /** The thumbnail that was asked for last, or why there is none. */
+  thumbnail(answer: Thumbnail): void;
   /** What is shown now with all its edits, to open it again after a loss. */
   current(): ViewDocument | undefined;
 }
@@ -59,6 +69,8 @@ function wishToStay(document: ViewDocument | undefined): Wish | undefined {
 
 const kClient = "volcast web 0.1.0";
 const kPingMs = 4000;
+/** Of a comparison: every pixel of a megapixel, if a minute is enough. */
+const kCompared = { maxPixels: 2 ** 20, maxMs: 60_000 };
 
 /** The conversation with the server: one view at a time, opened anew after every loss. */
 export class Session {
@@ -160,6 +172,32 @@ export class Session {
     this.#send({ case: "measureAccuracy", value: { view: this.#view } });
   }
 
+  /** Asks what plans with bounds know of the view; the answer is in `state.estimated`. */
+  estimate(): void {
+    if (this.#view === undefined) return;
+    estimatingBegan(this.#state);
+    this.#send({ case: "measureAccuracy", value: { view: this.#view, estimate: true } });
+  }
+
+  /** Compares the picture with the reference; parts arrive in `state.difference`. */
+  compare(): void {
+    if (this.#view === undefined) return;
+    comparingBegan(this.#state);
+    this.#send({ case: "measureDifference", value: { view: this.#view, ...kCompared } });
+  }
+
+  stopComparing(): void {
+    if (this.#view === undefined || !this.#state.difference.value?.running) return;
+    this.#send({ case: "measureDifference", value: { view: this.#view, stop: true } });
+  }
+
+  /** Asks for a small picture of a scene; false where there is no view to ask in. */
+  drawThumbnail(request: number, scene: Scene, width: number, height: number): boolean {
+    if (this.#view === undefined) return false;
+    const value = { view: this.#view, request, scene, width, height };
+    return this.#send({ case: "drawThumbnail", value });
+  }
+
   stopMeasuring(): void {
     const { value } = this.#state.measured;
     if (this.#view === undefined || !value?.running) return;
@@ -225,6 +263,7 @@ export class Session {
     this.#opening = undefined;
     this.#state.view.value = undefined;
     measuringEnded(this.#state, "the connection was lost");
+    comparisonEnded(this.#state, "the connection was lost");
     this.#state.connection.value = { kind: "lost", retryAt, reason };
   }
 
@@ -343,6 +382,12 @@ export class Session {
       case "accuracyReport":
         if (body.value.view === this.#view) measuringReported(state, body.value);
         break;
+      case "differenceReport":
+        if (body.value.view === this.#view) comparisonReported(state, body.value);
+        break;
+      case "thumbnail":
+        if (body.value.view === this.#view) this.#events.thumbnail(body.value);
+        break;
       case "shaderDescription": {
         const { request, controls, complaints } = body.value;
         const described = this.#describing;
@@ -370,6 +415,7 @@ export class Session {
     this.#wish = undefined;
     this.#view = view;
     measuringEnded(this.#state, "other data is shown");
+    comparisonEnded(this.#state, "other data is shown");
     this.#state.pendingDataset.value = undefined;
     this.#state.view.value = { state: ViewState.ACTIVE, message: "" };
     if (before !== undefined) this.#close(before);
@@ -398,7 +444,13 @@ export class Session {
     // A pixel of a picture that newer ones have pushed out: the next picture is asked again.
     if (error.field === "input_seq" && error.inputSeq === this.#picking?.inputSeq) return;
     if (this.#refusesMeasuring(error)) {
-      measuringEnded(this.#state, sentenceOf({ field: "", message: error.message }));
+      const why = sentenceOf({ field: "", message: error.message });
+      measuringEnded(this.#state, why);
+      comparisonEnded(this.#state, why);
+      return;
+    }
+    if (error.field.startsWith("draw_thumbnail")) {
+      this.#events.thumbnail(create(ThumbnailSchema, { refusal: error.message }));
       return;
     }
     if (error.inputSeq > 0n) this.#pacer.answered(error.inputSeq);
@@ -419,8 +471,11 @@ export class Session {
     }
   }
 
-  #refusesMeasuring({ view, field }: ErrorMessage): boolean {
-    return field === "view" && view === this.#view && this.#state.measured.value?.running === true;
+  #refusesMeasuring({ view, field, inputSeq }: ErrorMessage): boolean {
+    const { measured, estimated, difference } = this.#state;
+    const running = [measured, estimated, difference].some((one) => one.value?.running);
+    const about = field === "view" || /^scene\.layers\[\d+\]\.shader$/.test(field);
+    return running && about && inputSeq === 0n && view === this.#view;
   }
 
   /** The newest settings are not drawn; what was drawn before them stays. */

@@ -6,7 +6,7 @@ import { changeLayer } from "./actions";
 import type { AppState, Edit, ViewportSize } from "./app_state";
 
 /** A view whose accuracy and cost are or were measured. */
-interface Subject {
+export interface Subject {
   readonly edit: Edit;
   readonly orbit: Orbit | undefined;
   readonly viewport: ViewportSize | undefined;
@@ -23,7 +23,7 @@ export interface Measured {
   readonly stopped: string;
 }
 
-const subjectOf = (state: AppState): Subject => ({
+export const subjectOf = (state: AppState): Subject => ({
   edit: state.edit.value.present,
   orbit: state.orbit.value,
   viewport: state.viewport.value,
@@ -56,27 +56,41 @@ export function isOfThisView(state: AppState, { subject }: Measured): boolean {
   );
 }
 
+const begun = (state: AppState): Measured => ({
+  subject: subjectOf(state),
+  rows: [],
+  progress: 0,
+  running: true,
+  stopped: "",
+});
+
 export function measuringBegan(state: AppState): void {
-  const subject = subjectOf(state);
-  state.measured.value = { subject, rows: [], progress: 0, running: true, stopped: "" };
+  measuringEnded(state, "measured anew");
+  state.measured.value = begun(state);
+}
+
+export function estimatingBegan(state: AppState): void {
+  measuringEnded(state, "measured anew");
+  state.estimated.value = begun(state);
 }
 
 export function measuringReported(state: AppState, report: AccuracyReport): void {
-  const measured = state.measured.value;
-  if (!measured?.running) return;
+  const told = report.estimated ? state.estimated : state.measured;
+  if (!told.value?.running) return;
   const { rows, progress, done, stopped } = report;
-  state.measured.value = { ...measured, rows, progress, running: !done, stopped };
+  told.value = { ...told.value, rows, progress, running: !done, stopped };
 }
 
-/** Ends a measurement of which nothing more will be heard. */
+/** Ends measurements of which nothing more will be heard. */
 export function measuringEnded(state: AppState, why: string): void {
-  const measured = state.measured.value;
-  if (measured?.running) state.measured.value = { ...measured, running: false, stopped: why };
+  for (const told of [state.measured, state.estimated]) {
+    if (told.value?.running) told.value = { ...told.value, running: false, stopped: why };
+  }
 }
 
-/** Draws the first layer in the way that a row measured. */
-export function drawBy(state: AppState, row: AccuracyRow): void {
-  changeLayer(state, { integrator: row.integrator, evaluator: row.evaluator });
+/** Draws the first layer in the way that a row says; changes of one `gesture` are one step. */
+export function drawBy(state: AppState, row: AccuracyRow, gesture?: string): void {
+  changeLayer(state, { integrator: row.integrator, evaluator: row.evaluator }, gesture);
 }
 
 /** Leaves the choice to the server again. */

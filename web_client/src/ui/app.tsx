@@ -7,6 +7,7 @@ import { BadgeView } from "./badge";
 import { ChannelList } from "./channel_list";
 import { ClipEditor } from "./clip_editor";
 import { DataList } from "./data_list";
+import { DifferencePanel } from "./difference_panel";
 import { ExplainPanel } from "./explain_panel";
 import { FieldPicker } from "./field_picker";
 import { Help } from "./help";
@@ -22,6 +23,7 @@ import { Readout } from "./readout";
 import { RecordingChip } from "./recording_chip";
 import { RefusalNote } from "./refusal_note";
 import { ShaderPanel } from "./shader_panel";
+import { TimePanel } from "./time_panel";
 import { ViewMenu } from "./view_menu";
 import { VoxelPanel } from "./voxel_panel";
 
@@ -35,7 +37,14 @@ interface Props {
 
 const Overlay = lazy(async () => (await import("./overlay")).Overlay);
 
+const Difference = lazy(async () => (await import("./difference_overlay")).DifferenceOverlay);
+
+const ClipHandles = lazy(async () => (await import("./overlay_clip")).ClipHandles);
+
 const Hud = lazy(async () => (await import("./hud")).Hud);
+
+const hasHandles = ({ options, scene }: AppState): boolean =>
+  options.value.handles && (scene.value?.clipPlanes.length ?? 0) > 0;
 
 /** Fetched only where something of it is to be seen. */
 function Overlays({ state }: { readonly state: AppState }) {
@@ -117,7 +126,9 @@ export function App({ state, port, helpOpen, picture }: Props) {
     <div class="page" data-panel={open.value ? "open" : "closed"}>
       <main class="stage">
         <div class="picture-host" ref={picture} />
+        {state.comparing.value && <Difference state={state} port={port} />}
         <Overlays state={state} />
+        {hasHandles(state) && <ClipHandles state={state} />}
         <Tools state={state} port={port} helpOpen={helpOpen} />
         <Readout state={state} />
         {state.options.value.hud && <Hud state={state} />}
@@ -148,13 +159,15 @@ export function App({ state, port, helpOpen, picture }: Props) {
           <DataList state={state} port={port} />
           <ModelPicker state={state} />
           <FieldPicker state={state} />
+          <TimePanel state={state} />
           <ChannelList state={state} />
           <MapEditor state={state} slot="first" />
           <MapEditor state={state} slot="second" />
           <VoxelPanel state={state} />
           <ShaderPanel state={state} />
-          <AccuracyPanel state={state} />
+          <AccuracyPanel state={state} port={port} />
           <MeasurePanel state={state} port={port} />
+          <DifferencePanel state={state} port={port} />
           <ExplainPanel state={state} port={port} />
           <ClipEditor state={state} />
           <BackgroundPicker state={state} />

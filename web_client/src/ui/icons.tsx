@@ -14,6 +14,9 @@ const kPaths = {
   flip: "M10 3v14M7.5 6L3 14h4.5zM12.5 6L17 14h-4.5z",
   up: "M5 12.5l5-5 5 5",
   down: "M5 7.5l5 5 5-5",
+  play: "M6.5 4l9 6-9 6z",
+  pause: "M7 4.5v11M13 4.5v11",
+  box: "M3.5 6.5L10 3l6.5 3.5v7L10 17l-6.5-3.5zM3.5 6.5L10 10l6.5-3.5M10 10v7",
   warning: "M10 3.2L17.5 16.5h-15zM10 8.2v4M10 14.3v.1",
 } as const;
 

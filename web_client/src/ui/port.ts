@@ -16,4 +16,7 @@ export interface AppPort {
   explain(): void;
   measureAccuracy(): void;
   stopMeasuring(): void;
+  estimate(): void;
+  /** Shows the picture's difference from the reference, or shows it no more. */
+  compare(on: boolean): void;
 }

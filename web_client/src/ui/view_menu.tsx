@@ -18,6 +18,7 @@ const kShown: readonly (readonly [ViewOption, string])[] = [
   ["scaleBar", "Scale bar"],
   ["legend", "Legend (L)"],
   ["box", "Bounding box (B)"],
+  ["handles", "Handles of clip planes"],
   ["hud", "Performance (H)"],
 ];
 
