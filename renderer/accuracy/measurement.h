@@ -34,6 +34,7 @@ enum class Aim {
     kCandidate,  ///< What one way to draw one layer is worth, and what it costs.
     kPicture,    ///< Where the picture is off, drawn as the scene asks.
     kEstimates,  ///< What plans with bounds go by; little is drawn for it.
+    kTime,       ///< What the picture takes, drawn as the scene asks; `frames` at least 1.
 };
 
 /// Pixels whose column and row are multiples of `step`, but for those of 2 * step where it
@@ -51,7 +52,7 @@ struct Job {
     scene::PictureSize size{512};
     Aim aim = Aim::kCandidate;
     Grid grid = {};            ///< To compare, where the aim is the picture.
-    Candidate candidate = {};  ///< And all below: where it is the aim.
+    Candidate candidate = {};  ///< Where it is the aim, as is what follows; frames of times, too.
     int frames = 0;            ///< Draws to time, after one that warms up; 0: errors alone.
     std::uint64_t pixels = 0;  ///< To compare, spread over the picture; 0: all.
     bool countsSteps = false;  ///< In one more frame, which is not timed.

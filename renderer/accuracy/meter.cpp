@@ -162,6 +162,7 @@ Result<Meter::Run> Meter::begin(const Job& job, std::uint64_t view) {
                    .scene = job.scene,
                    .question = questionOf(job.scene, job.size, std::move(pixels))};
     }
+    if (job.aim == Aim::kTime) return Run{.job = job, .view = view, .scene = job.scene};
     if (job.candidate.layer >= job.scene.layers.size()) {
         return fail(ErrorCode::kInvalidArgument, "layer " + std::to_string(job.candidate.layer) +
                                                      " of a scene with " +
@@ -177,8 +178,8 @@ Result<bool> Meter::drawNext(Run& run) {
     const Job& job = run.job;
     const int last = job.frames + (job.countsSteps ? 1 : 0);
     if (run.drawn > last) return false;
-    const bool compared = run.drawn == 0;
-    const bool timed = !compared && run.drawn <= job.frames;
+    const bool compared = run.drawn == 0 && job.aim != Aim::kTime;
+    const bool timed = run.drawn > 0 && run.drawn <= job.frames;
     scene::Scene scene = run.scene;
     if (timed) scene.camera = scene::orbit(scene.camera, run.drawn * kTurnDegrees);
     if (compared) run.rgba.resize(std::size_t{4} * job.size.x * job.size.y);
@@ -190,7 +191,7 @@ Result<bool> Meter::drawNext(Run& run) {
                          run.evidence);
     if (!frame) return frame.error();
     ++run.drawn;
-    if (job.aim == Aim::kPicture) return true;
+    if (job.aim == Aim::kPicture || (job.aim == Aim::kTime && !timed)) return true;
     if (compared) {
         const plan::LayerPlan& plan = frame->plan.layers.at(job.candidate.layer);
         run.measured.evaluator = plan.evaluator;
@@ -208,7 +209,7 @@ Result<bool> Meter::drawNext(Run& run) {
     return true;
 }
 
-Measurement Meter::finish(Run& run, Truth& truth) {
+Measurement Meter::finish(Run& run, Truth* truth) {
     Measurement measured = std::move(run.measured);
     if (!run.times.empty()) {
         std::ranges::sort(run.times);
@@ -217,14 +218,15 @@ Measurement Meter::finish(Run& run, Truth& truth) {
         measured.maxMs = run.times.back();
         measured.frames = run.job.frames;
     }
-    const std::vector<glm::ivec2>& pixels = truth.question.pixels;
-    Difference off = compare(truth.picture, pixels, run.rgba, run.job.size.x);
+    if (truth == nullptr) return measured;
+    const std::vector<glm::ivec2>& pixels = truth->question.pixels;
+    Difference off = compare(truth->picture, pixels, run.rgba, run.job.size.x);
     measured.all = off.all;
     measured.inner = off.inner;
     if (run.job.aim == Aim::kPicture) measured.off = std::move(off.off);
     measured.cellsPerRay =
-        static_cast<double>(truth.picture.piecesVisited) / static_cast<double>(pixels.size());
-    measured.reference = std::exchange(truth.effort, {});
+        static_cast<double>(truth->picture.piecesVisited) / static_cast<double>(pixels.size());
+    measured.reference = std::exchange(truth->effort, {});
     return measured;
 }
 
@@ -237,7 +239,7 @@ Result<Measurement> Meter::measure(const Job& job) {
     if (!drawn) return drawn.error();
     const auto truth = truthOf(run->question);
     if (!truth) return truth.error();
-    return finish(*run, **truth);
+    return finish(*run, *truth);
 }
 
 Result<std::optional<Measurement>> Meter::advance(const Job& job,
@@ -251,14 +253,16 @@ Result<std::optional<Measurement>> Meter::advance(const Job& job,
     }
     Truth* none = nullptr;
     Result<Truth*> truth = none;
-    if (run_->drawn > 0) {  // The picture to compare is drawn; times wait until no thread is busy.
+    if (run_->drawn > 0 &&
+        job.aim !=
+            Aim::kTime) {  // The picture to compare is drawn; times wait until no thread is busy.
         truth = searchFor(run_->question);
         if (truth && *truth == none) return std::nullopt;
     }
     const Result<bool> drawn = truth ? drawNext(*run_) : Result<bool>{truth.error()};
     if (drawn && *drawn) return std::nullopt;
     std::optional<Measurement> measured;
-    if (drawn) measured = finish(*run_, **truth);
+    if (drawn) measured = finish(*run_, *truth);
     stop();
     if (!drawn) return drawn.error();
     return measured;

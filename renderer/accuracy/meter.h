@@ -84,7 +84,7 @@ private:
         std::uint64_t view = 0;
         scene::Scene scene;  ///< As it is drawn.
         plan::SceneEvidence evidence = {};
-        Question question;
+        Question question = {};
         std::vector<float> rgba = {};
         std::string drawnWith = {};  ///< The layer in whose draw the candidate's is.
         std::vector<double> times = {};
@@ -107,7 +107,8 @@ private:
     static Result<Run> begin(const Job& job, std::uint64_t view);
     /// Draws the next picture; false: there was none left.
     Result<bool> drawNext(Run& run);
-    static Measurement finish(Run& run, Truth& truth);
+    /// `truth`: null where nothing is compared.
+    static Measurement finish(Run& run, Truth* truth);
 
     scene::Renderer& renderer_;
     reference::Bodies bodies_;

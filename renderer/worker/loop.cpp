@@ -228,7 +228,7 @@ Result<std::optional<accuracy::Measurement>> Loop::advance(const accuracy::Job& 
     if (job.aim == accuracy::Aim::kCandidate) return meter_.advance(job);
     const auto evidence = evidence_.of(job.scene, job.size);
     if (!evidence) return evidence.error();
-    if (job.aim == accuracy::Aim::kPicture) return meter_.advance(job, *evidence);
+    if (job.aim != accuracy::Aim::kEstimates) return meter_.advance(job, *evidence);
     accuracy::Measurement measured;
     measured.estimates = *evidence;
     return measured;

@@ -37,6 +37,7 @@ WireAim::Aim toMessage(accuracy::Aim aim) {
     switch (aim) {
         case accuracy::Aim::kPicture: return WireAim::PICTURE;
         case accuracy::Aim::kEstimates: return WireAim::ESTIMATES;
+        case accuracy::Aim::kTime: return WireAim::TIME;
         case accuracy::Aim::kCandidate: break;
     }
     return WireAim::CANDIDATE;
@@ -44,6 +45,7 @@ WireAim::Aim toMessage(accuracy::Aim aim) {
 
 accuracy::Aim aimFrom(WireAim::Aim message) {
     if (message == WireAim::PICTURE) return accuracy::Aim::kPicture;
+    if (message == WireAim::TIME) return accuracy::Aim::kTime;
     return message == WireAim::ESTIMATES ? accuracy::Aim::kEstimates : accuracy::Aim::kCandidate;
 }
 

@@ -62,6 +62,8 @@ Result<void> SharedView::measure(ViewerId id, const v1::MeasureAccuracy& message
     }
     if (message.estimate()) {
         accuracy_.startEstimates(*state_.scene, viewer.size());
+    } else if (message.effects()) {
+        accuracy_.startEffects(*state_.scene, viewer.size(), plans_.at(viewer.rendition.get()));
     } else {
         accuracy_.start(*state_.scene, viewer.size(), message.max_pixels(), volumes);
     }

@@ -233,9 +233,8 @@ const port: AppPort = {
   },
   resetCamera: () => resetCamera(state),
   explain: () => session.explain(),
-  measureAccuracy: () => session.measureAccuracy(),
+  measure: (aim) => session.measure(aim),
   stopMeasuring: () => session.stopMeasuring(),
-  estimate: () => session.estimate(),
   compare(on) {
     if (!on) session.stopComparing();
     state.comparing.value = on;

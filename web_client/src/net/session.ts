@@ -1,6 +1,7 @@
 import { create, fromBinary, type MessageInitShape, toBinary } from "@bufbuild/protobuf";
 import {
-  estimatingBegan,
+  isMeasuring,
+  type MeasureAim,
   measuringBegan,
   measuringEnded,
   measuringReported,
@@ -165,18 +166,12 @@ export class Session {
     if (this.#view !== undefined) this.#send({ case: "explain", value: { view: this.#view } });
   }
 
-  /** Measures the view's accuracy and cost; reports arrive in `state.measured`. */
-  measureAccuracy(): void {
+  /** Measures ways to draw the view, what plans know of them, or effects; reports arrive in `state[aim]`. */
+  measure(aim: MeasureAim): void {
     if (this.#view === undefined) return;
-    measuringBegan(this.#state);
-    this.#send({ case: "measureAccuracy", value: { view: this.#view } });
-  }
-
-  /** Asks what plans with bounds know of the view; the answer is in `state.estimated`. */
-  estimate(): void {
-    if (this.#view === undefined) return;
-    estimatingBegan(this.#state);
-    this.#send({ case: "measureAccuracy", value: { view: this.#view, estimate: true } });
+    measuringBegan(this.#state, aim);
+    const [estimate, effects] = [aim === "estimated", aim === "effectTimes"];
+    this.#send({ case: "measureAccuracy", value: { view: this.#view, estimate, effects } });
   }
 
   /** Compares the picture with the reference; parts arrive in `state.difference`. */
@@ -199,8 +194,7 @@ export class Session {
   }
 
   stopMeasuring(): void {
-    const { value } = this.#state.measured;
-    if (this.#view === undefined || !value?.running) return;
+    if (this.#view === undefined || !isMeasuring(this.#state)) return;
     this.#send({ case: "measureAccuracy", value: { view: this.#view, stop: true } });
   }
 
@@ -472,8 +466,7 @@ export class Session {
   }
 
   #refusesMeasuring({ view, field, inputSeq }: ErrorMessage): boolean {
-    const { measured, estimated, difference } = this.#state;
-    const running = [measured, estimated, difference].some((one) => one.value?.running);
+    const running = isMeasuring(this.#state) || this.#state.difference.value?.running === true;
     const about = field === "view" || /^scene\.layers\[\d+\]\.shader$/.test(field);
     return running && about && inputSeq === 0n && view === this.#view;
   }

@@ -9,7 +9,7 @@ import {
   DatasetKind,
 } from "../net/gen/volcast/v1/session_pb";
 import { dragged } from "../view/camera";
-import { drawBy, estimatingBegan, measuringBegan, measuringReported } from "./accuracy";
+import { drawBy, measuringBegan, measuringReported } from "./accuracy";
 import { estimatedStops, measuredStops, stopsOf, usedStop } from "./accuracy_stops";
 import { adoptScene } from "./actions";
 import { createAppState } from "./app_state";
@@ -71,7 +71,7 @@ describe("the slider's stops", () => {
       Integrator.ENDS,
       Integrator.EXACT,
     ]);
-    estimatingBegan(state);
+    measuringBegan(state, "estimated");
     measuringReported(state, done([row({ integrator: Integrator.EXACT, medianMs: 7 })], true));
     expect(stopsOf(state)).toMatchObject({ source: "estimated", stops: [{ ms: 7 }] });
     measuringBegan(state);

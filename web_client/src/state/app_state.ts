@@ -163,6 +163,8 @@ export function createAppState() {
     measured: signal<Measured | undefined>(undefined),
     /** The same as plans with bounds know it, where that was asked. */
     estimated: signal<Measured | undefined>(undefined),
+    /** What effects of the picture take, where that was measured. */
+    effectTimes: signal<Measured | undefined>(undefined),
     /** The picture's difference from the reference is shown over it. */
     comparing: signal(false),
     difference: signal<Difference | undefined>(undefined),

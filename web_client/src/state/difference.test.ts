@@ -3,7 +3,7 @@ import { beforeEach, describe, expect, it } from "vitest";
 import { SceneSchema } from "../net/gen/volcast/v1/scene_pb";
 import { type DifferenceReport, DifferenceReportSchema } from "../net/gen/volcast/v1/session_pb";
 import { dragged } from "../view/camera";
-import { measuringBegan } from "./accuracy";
+import { isOfThisPicture, measuringBegan } from "./accuracy";
 import { adoptScene, changeLayer } from "./actions";
 import { type AppState, createAppState } from "./app_state";
 import {
@@ -11,7 +11,6 @@ import {
   comparisonEnded,
   comparisonReported,
   fillPart,
-  isOfThisPicture,
   kReplaced,
   needsComparison,
 } from "./difference";

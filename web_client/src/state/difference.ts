@@ -1,6 +1,6 @@
 import type { DifferenceReport } from "../net/gen/volcast/v1/session_pb";
 import { readHalves } from "../net/halves";
-import { type Subject, subjectOf } from "./accuracy";
+import { isMeasuring, isOfThisPicture, type Subject, subjectOf } from "./accuracy";
 import type { AppState } from "./app_state";
 
 /** How far the picture is from the reference; the newest comparison, running or ended. */
@@ -96,22 +96,14 @@ export function comparisonEnded(state: AppState, why: string): void {
   if (value?.running) state.difference.value = { ...value, running: false, stopped: why };
 }
 
-/** True while the picture is the very one that is or was compared. */
-export function isOfThisPicture(state: AppState, { subject }: Difference): boolean {
-  const now = subjectOf(state);
-  return (
-    now.edit === subject.edit && now.orbit === subject.orbit && now.viewport === subject.viewport
-  );
-}
-
 /** The picture on the screen is exact, of the newest input, and not compared, or not to the end. */
 export function needsComparison(state: AppState): boolean {
   const picture = state.picture.value;
   const difference = state.difference.value;
-  const { measured, estimated, newestInput } = state;
+  const { newestInput } = state;
   if (!state.comparing.value || state.connection.value.kind !== "open") return false;
   if (!picture?.final || picture.inputSeq < newestInput.value) return false;
-  if (measured.value?.running || estimated.value?.running) return false;
+  if (isMeasuring(state)) return false;
   if (!difference || !isOfThisPicture(state, difference)) return true;
   return !difference.running && difference.stopped === kReplaced;
 }

@@ -1,5 +1,5 @@
 import { Integrator } from "../net/gen/volcast/v1/scene_pb";
-import { drawAutomatically, drawBy, isOfThisView } from "../state/accuracy";
+import { drawAutomatically, drawBy, isMeasuring, isOfThisView } from "../state/accuracy";
 import { type Source, type Stop, type Stops, stopsOf, usedStop } from "../state/accuracy_stops";
 import { endGesture } from "../state/actions";
 import type { AppState } from "../state/app_state";
@@ -44,10 +44,9 @@ export function AccuracySlider({ state, port }: Props) {
   if (!stop) return null;
   const automatic = state.layer.value?.integrator === Integrator.AUTO;
   const reached = (): void => {
-    const { estimated, measured } = state;
+    const { estimated } = state;
     const known = estimated.value && isOfThisView(state, estimated.value);
-    const busy = measured.value?.running || estimated.value?.running;
-    if (source === "order" && !known && !busy) port.estimate();
+    if (source === "order" && !known && !isMeasuring(state)) port.measure("estimated");
   };
   const said = `${wayOf(stop.row)}${figuresOf(stop) && `: ${figuresOf(stop)}`}`;
   return (

@@ -1,6 +1,7 @@
 import { useLayoutEffect, useRef } from "preact/hooks";
+import { isOfThisPicture } from "../state/accuracy";
 import type { AppState } from "../state/app_state";
-import { type Difference, type Figures, isOfThisPicture } from "../state/difference";
+import type { Difference, Figures } from "../state/difference";
 import { paintDifference, scaleColour } from "./difference_paint";
 import { formatCount, formatNumber } from "./format";
 import { IconButton } from "./icons";

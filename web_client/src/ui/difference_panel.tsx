@@ -1,5 +1,5 @@
+import { isOfThisPicture } from "../state/accuracy";
 import type { AppState } from "../state/app_state";
-import { isOfThisPicture } from "../state/difference";
 import type { AppPort } from "./port";
 
 interface Props {

@@ -1,3 +1,4 @@
+import type { MeasureAim } from "../state/accuracy";
 import type { TurnWish } from "../state/recording";
 import type { ViewOption } from "../state/view_options";
 
@@ -14,9 +15,9 @@ export interface AppPort {
   toggle(option: ViewOption): void;
   toggleFullscreen(): void;
   explain(): void;
-  measureAccuracy(): void;
+  /** Begins to measure; nothing else is measured then. */
+  measure(aim: MeasureAim): void;
   stopMeasuring(): void;
-  estimate(): void;
   /** Shows the picture's difference from the reference, or shows it no more. */
   compare(on: boolean): void;
 }
