@@ -54,6 +54,7 @@ void SharedView::end() {
     const Turn turn{*this};
     if (std::exchange(ended_, true)) return;
     parts_.router.remove(global_);
+    dropThumbnails();
     if (viewers_.empty()) return;  // Was dropped when the last one left.
     outbox_.put([&render = parts_.render, view = global_] { render.dropView(view); });
 }

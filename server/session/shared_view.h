@@ -13,6 +13,7 @@
 #include "server/session/scene_history.h"
 #include "server/session/shared.h"
 #include "server/session/view_accuracy.h"
+#include "server/session/view_difference.h"
 #include "server/session/view_people.h"
 #include "server/session/view_scene.h"
 #include "server/session/viewer.h"
@@ -90,7 +91,11 @@ public:
     // Of shared_view_tools.cpp. Errors: kNotFound, kUnsupported, kInvalidArgument with `field`.
     [[nodiscard]] Result<v1::Plan> explain(ViewerId viewer) const;
     Result<void> measure(ViewerId viewer, const v1::MeasureAccuracy& message);
+    Result<void> measureDifference(ViewerId viewer, const v1::MeasureDifference& message);
     Result<void> pick(ViewerId viewer, const v1::Pick& message);
+    /// Of shared_view_thumbnails.cpp. Errors: as readyScene(); kInvalidArgument and kLimitExceeded
+    /// for a side, kUnsupported for a scene that runs code.
+    Result<void> drawThumbnail(ViewerId viewer, const v1::DrawThumbnail& message);
 
     /// Work done since the view began.
     struct Counts {
@@ -165,10 +170,21 @@ private:
     void settle(std::uint64_t tag);
     void pacedBy(const workers::RenderedFrame& frame, const RenditionKey& key);
 
+    [[nodiscard]] Result<void> mayMeasure(ViewerId viewer) const;
+    [[nodiscard]] v1::ServerMessage measureReport(bool ofAccuracy) const;
     void measureNext();
     void stopMeasuring(const std::string& why);
     void pickNext();
     void askPick(ViewerId viewer);
+    void thumbnailNext();
+    void askThumbnail(ViewerId viewer);
+    void thumbnailDrawn(const workers::RenderedFrame& frame);
+    void thumbnailFailed(std::uint64_t tag, const Error& error);
+    void thumbnailEncoded(std::uint64_t tag, v1::Codec codec,
+                          const Result<std::vector<std::byte>>& bytes);
+    void tellThumbnail(v1::Thumbnail answer);
+    void forgetThumbnails(ViewerId viewer);
+    void dropThumbnails();
     /// Null where it is gone.
     [[nodiscard]] Viewer* find(ViewerId viewer) const;
 
@@ -196,7 +212,8 @@ private:
 
     std::map<const Rendition*, v1::Plan> plans_;  ///< Of the newest pictures.
     ViewAccuracy accuracy_;
-    ViewerId measures_ = 0;  ///< Who asked for what accuracy_ does.
+    ViewDifference difference_;  ///< Runs in the place of accuracy_.
+    ViewerId measures_ = 0;      ///< Who asked for what runs.
     struct Picking {
         v1::Pick asked;
         Viewer::Sent of;
@@ -204,6 +221,15 @@ private:
     std::map<ViewerId, Picking> picks_;  ///< The newest of each viewer.
     ViewerId picker_ = 0;                ///< Whose is at the render service; 0: nobody's.
     std::uint64_t pickTag_ = 0;
+    struct Sketch {
+        std::uint32_t request = 0;
+        scene::Scene scene;
+        scene::PictureSize size{1};
+    };
+    std::map<ViewerId, Sketch> thumbnails_;  ///< The newest of each viewer.
+    ViewerId thumbnailOf_ = 0;               ///< Whose is under way; 0: nobody's.
+    std::uint64_t thumbnailTag_ = 0;
+    std::uint64_t thumbnailView_ = 0;  ///< At the render service; 0: none yet.
 };
 
 }  // namespace volcast::session

@@ -61,12 +61,14 @@ void SharedView::unseat(ViewerId id) {
     const bool first = viewers_.begin()->first == id;
     picks_.erase(id);
     if (picker_ == id) pickNext();
+    forgetThumbnails(id);
     viewers_.erase(id);
     dropUnused();
     if (viewers_.empty()) {
         emptySince_ = Clock::now();
         drawing_.reset();
         outbox_.put([&render = parts_.render, view = global_] { render.dropView(view); });
+        dropThumbnails();
     } else if (first) {
         refresh(Clock::now());  // News that it alone would have brought.
     }

@@ -39,7 +39,8 @@ public:
 
     /// Views with a request that has not been taken.
     [[nodiscard]] std::size_t waiting() const noexcept { return turns_.size(); }
-    /// Takes the request whose turn it is. It is in flight until one of the calls below.
+    /// Takes the request whose turn it is, one in the background where there is no other. It is in
+    /// flight until one of the calls below.
     std::optional<TimedRequest> next();
     /// `drawn` is now the view's last good request.
     void succeeded(RenderRequest drawn);

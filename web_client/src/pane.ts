@@ -23,11 +23,14 @@ import {
   type SharedState,
   type ShareLink,
 } from "./state/app_state";
+import { needsComparison } from "./state/difference";
 import type { ViewDocument } from "./state/document";
 import { followCamera, followScene, joinScene } from "./state/follow";
+import { atRest, followThumbnails, ThumbnailKeeper, thumbnailSize } from "./state/model_thumbnails";
 import { whyNotSteering } from "./state/people";
 import { codeToDescribe } from "./state/shader_actions";
 import { followShownOrbit } from "./state/shown_orbit";
+import { followTime } from "./state/time_steps";
 import type { ViewPort } from "./ui/port";
 import { withOtherProjection } from "./view/camera";
 import { controlCamera } from "./view/camera_control";
@@ -102,16 +105,19 @@ export function openPane(page: PanePort, beginning: PaneBeginning): Pane {
       frame: (frame, receivedAt) => pictures.show(frame, receivedAt),
       restarted: () => pictures.restart(),
       opened(scene) {
+        thumbnails.lost();
         adopt(() => adoptScene(state, scene));
         shownOrbit.opened();
         page.opened();
         if (state.orbit.value !== state.home.value) conversation.mark("camera");
       },
       joined(scene) {
+        thumbnails.lost();
         adopt(() => joinScene(state, scene));
         shownOrbit.opened();
       },
       restored(document) {
+        thumbnails.lost();
         adopt(() => restoreDocument(state, document));
         shownOrbit.opened();
       },
@@ -123,9 +129,27 @@ export function openPane(page: PanePort, beginning: PaneBeginning): Pane {
         adopt(() => followCamera(state, camera));
         page.moved();
       },
+      thumbnail(answer) {
+        if (thumbnails.answered(answer) && atRest(state)) thumbnails.advance();
+      },
       current: () => currentDocument(state),
     },
     beginning,
+  );
+  const thumbnails = new ThumbnailKeeper(state, (request, scene) => {
+    const { width, height } = thumbnailSize(devicePixelRatio);
+    return conversation.questions.drawThumbnail(request, scene, width, height);
+  });
+  const clock = {
+    now: () => performance.now(),
+    after: (ms: number, run: () => void) => void setTimeout(run, ms),
+  };
+  ends.push(
+    followThumbnails(state, thumbnails),
+    followTime(state, clock),
+    effect(() => {
+      if (needsComparison(state)) untracked(() => conversation.questions.compare());
+    }),
   );
   const pictures = new Pictures({
     state,
@@ -267,8 +291,13 @@ export function openPane(page: PanePort, beginning: PaneBeginning): Pane {
     },
     resetCamera: () => resetCamera(state),
     explain: () => questions.explain(),
-    measureAccuracy: () => questions.measureAccuracy(),
+    measure: (aim) => questions.measure(aim),
     stopMeasuring: () => questions.stopMeasuring(),
+    compare(on) {
+      if (!on) questions.stopComparing();
+      state.comparing.value = on;
+      if (!on) state.difference.value = undefined;
+    },
     undo: () => step(false),
     redo: () => step(true),
     takeControl: () => people.takeControl(),
