@@ -76,6 +76,8 @@ public:
     void undo(ViewerId viewer, const v1::Undo& message, TimePoint now);
     void takeControl(ViewerId viewer);
     void handOver(ViewerId viewer, std::uint32_t person);
+    void askControl(ViewerId viewer, bool withdraw);
+    void rename(ViewerId viewer, const std::string& name);
     /// Empty where the viewer may share the view, else why not.
     [[nodiscard]] std::string whyNotSharing(ViewerId viewer) const;
     std::optional<v1::ServerMessage> takeMail(ViewerId viewer);
@@ -131,9 +133,13 @@ private:
     void picked(std::uint64_t tag, const Result<std::optional<scene::Picked>>& result);
 
     // The scene, shared_view.cpp. `author`: who did it, and knows; 0: nobody.
+    bool answerAgain(Viewer& viewer, scene::PictureSize size, std::uint64_t resizedBy,
+                     TimePoint now);
     void apply(SceneChange change, TimePoint now, ViewerId author, bool cameraOnly = false);
     [[nodiscard]] v1::ServerMessage sceneMessage(ViewerId author, bool cameraOnly) const;
     void tellScene(ViewerId author, bool cameraOnly);
+    /// One viewer hears of the scene as it is, and of the newest input.
+    void tellScene(Viewer& viewer);
     /// There is something new to save.
     void changed();
     void sceneNews(const std::string& dataset, TimePoint now);
@@ -162,6 +168,7 @@ private:
     [[nodiscard]] bool mayDraw(const std::shared_ptr<Rendition>& rendition) const;
     void draw(const std::shared_ptr<Rendition>& rendition, TimePoint now);
     void settle(std::uint64_t tag);
+    void pacedBy(const workers::RenderedFrame& frame, const RenditionKey& key);
 
     [[nodiscard]] Result<void> mayMeasure(ViewerId viewer) const;
     [[nodiscard]] v1::ServerMessage measureReport(bool ofAccuracy) const;
@@ -198,6 +205,7 @@ private:
 
     std::vector<std::shared_ptr<Rendition>> renditions_;  ///< The one drawn last is last.
     std::shared_ptr<Rendition> drawing_;  ///< Whose request is at the render service.
+    DrawPace drawPace_;
     std::uint64_t lastTag_ = 0;
     std::uint64_t lastPicture_ = 0;
     Counts counts_;

@@ -159,10 +159,17 @@ Result<SceneChange> ViewScene::update(const v1::Update& message) {
         camera = *wanted;
     }
     SceneChange change = scene_ ? SceneChange::kDraw : SceneChange::kWaiting;
+    if (scene_ && !waiting_ && !message.has_scene() && (!camera || *camera == scene_->camera)) {
+        change = SceneChange::kSame;
+    }
     if (message.has_scene()) {
         auto scene = worker::sceneFrom(message.scene());
         if (!scene) return within("scene", scene.error());
         if (camera) scene->camera = *camera;
+        if (scene_ && !waiting_ && *scene == *scene_) {
+            inputSeq_ = message.input_seq();
+            return SceneChange::kSame;
+        }
         auto accepted = accept({.scene = std::move(*scene), .seqBefore = shownSeq()});
         if (!accepted) return accepted.error();
         change = *accepted;

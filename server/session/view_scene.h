@@ -15,6 +15,7 @@ namespace volcast::session {
 /// What an accepted message or a change of data did to a view.
 enum class SceneChange {
     kNone,     ///< Nothing to draw: an old update, or news about other data.
+    kSame,     ///< A newer update, but of what the scene is already.
     kDraw,     ///< There is something new to draw.
     kWaiting,  ///< The new scene needs data that is being imported; the old one stays.
 };

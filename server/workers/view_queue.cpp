@@ -65,7 +65,13 @@ void ViewQueue::succeeded(RenderRequest drawn) {
     const auto found = views_.find(drawn.view);
     if (found == views_.end()) return;
     found->second.lossesInARow = 0;
+    lastDrawn_ = drawn.view;
     found->second.lastGood = std::move(drawn);
+}
+
+const RenderRequest* ViewQueue::lastDrawn() const {
+    const auto view = views_.find(lastDrawn_);
+    return view != views_.end() && view->second.lastGood ? &*view->second.lastGood : nullptr;
 }
 
 void ViewQueue::refused(std::uint64_t view) {

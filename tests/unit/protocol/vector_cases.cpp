@@ -75,6 +75,9 @@ std::vector<std::pair<std::string, std::string>> clientMeanings() {
         {"share_view", R"({"shareView":{"view":2,"role":"ROLE_WATCH","expiresS":3600}})"},
         {"take_control", R"({"takeControl":{"view":2}})"},
         {"hand_over", R"({"handOver":{"view":2,"person":4294967295}})"},
+        {"ask_control", R"({"askControl":{"view":2}})"},
+        {"ask_control_no_more", R"({"askControl":{"view":2,"withdraw":true}})"},
+        {"set_name", R"({"setName":{"person":"Zoë"}})"},
         {"undo", R"({"undo":{"view":2}})"},
         {"redo", R"({"undo":{"view":2,"redo":true,"inputSeq":"9007199254740993"}})"},
         {"no_body", "{}"},
@@ -102,9 +105,9 @@ std::vector<std::pair<std::string, std::string>> serverMeanings() {
          R"("camera":{"eye":{"x":-1.5},"center":{},"up":{"z":1},"fovyDegrees":30}}})"},
         {"view_shared", R"({"viewShared":{"view":2,"link":"AQI-_w","url":"/#link=AQI-_w",)"
                         R"("role":"ROLE_WATCH","expires":"1800000000"}})"},
-        {"people",
-         R"({"people":{"view":2,"people":[{"id":7,"name":"Zoë","role":"ROLE_CONTROL",)"
-         R"("steers":true},{"id":8,"name":"Guest 8","role":"ROLE_WATCH","away":true}]}})"},
+        {"people", R"({"people":{"view":2,"people":[{"id":7,"name":"Zoë","role":"ROLE_CONTROL",)"
+                   R"("steers":true},{"id":8,"name":"Guest 8","role":"ROLE_WATCH","away":true},)"
+                   R"({"id":9,"role":"ROLE_WATCH","asks":true}]}})"},
         {"dataset_list_empty", R"({"datasetList":{}})"},
         {"dataset_list", R"({"datasetList":{"datasets":[{"id":"demo:mesh","name":"Demo mesh"},)"
                          R"({"id":"a b/é.vtu","name":"é.vtu","state":"DATASET_STATE_IMPORTING",)"

@@ -1,6 +1,7 @@
 import { effect, untracked } from "@preact/signals";
 import { changeLayer, endGesture } from "./actions";
 import type { AppState } from "./app_state";
+import { whyNotSteering } from "./people";
 
 /** How time steps follow each other by themselves. */
 export interface Playing {
@@ -81,7 +82,7 @@ export function followTime(state: AppState, clock: Clock): () => void {
     const count = stepsOf(state);
     plan += 1;
     if (!on || !isThere || state.connection.value.kind !== "open") return;
-    if (count < 2) {
+    if (count < 2 || whyNotSteering(state) !== undefined) {
       untracked(() => togglePlaying(state));
       return;
     }
