@@ -83,6 +83,7 @@ void SharedView::askThumbnail(ViewerId id) {
                                    .tag = ++thumbnailTag_,
                                    .scene = sketch.scene,
                                    .size = sketch.size,
+                                   .viewId = id_,
                                    .background = true};
     outbox_.put([&render = parts_.render, request = std::move(request)]() mutable {
         render.submit(std::move(request));

@@ -269,6 +269,20 @@ export function openPane(page: PanePort, beginning: PaneBeginning): Pane {
   );
 
   const { people, questions } = conversation;
+  const thumbnails = new ThumbnailKeeper(state, (request, scene) => {
+    const { width, height } = thumbnailSize(devicePixelRatio);
+    return questions.drawThumbnail(request, scene, width, height);
+  });
+  ends.push(
+    followThumbnails(state, thumbnails),
+    followTime(state, {
+      now: () => performance.now(),
+      after: (ms, run) => void setTimeout(run, ms),
+    }),
+    effect(() => {
+      if (needsComparison(state)) untracked(() => questions.compare());
+    }),
+  );
   const step = (isRedo: boolean): void => {
     const why = whyNotSteering(state);
     if (why) notify(state, "info", why);

@@ -1,6 +1,7 @@
 #include "renderer/accuracy/measurement_effects.h"
 
 #include <set>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -10,6 +11,12 @@ namespace volcast::accuracy {
 namespace {
 
 using Effects = std::set<std::string>;
+
+scene::Scene sceneOf(std::vector<scene::Layer> layers) {
+    scene::Scene scene;
+    scene.layers = std::move(layers);
+    return scene;
+}
 
 scene::Layer layer(const std::string& id, scene::RayModel model) {
     scene::Layer layer;
@@ -33,7 +40,7 @@ Effects effectsOf(const scene::Scene& scene) {
 }
 
 TEST(WithoutEffects, AreThoseThatALayersSettingsAskFor) {
-    scene::Scene scene{.layers = {layer("v", scene::RayModel::kVolume)}};
+    scene::Scene scene = sceneOf({layer("v", scene::RayModel::kVolume)});
     EXPECT_EQ(effectsOf(scene), Effects{});
     scene::Layer& volume = scene.layers[0];
     volume.interval = data::Range{0.0F, 1.0F};
@@ -49,8 +56,8 @@ TEST(WithoutEffects, AreThoseThatALayersSettingsAskFor) {
 }
 
 TEST(WithoutEffects, OfBoundariesAndLevelsAreTheirOwn) {
-    scene::Scene scene{.layers = {layer("w", scene::RayModel::kWireframe),
-                                  layer("i", scene::RayModel::kIsosurface)}};
+    scene::Scene scene = sceneOf(
+        {layer("w", scene::RayModel::kWireframe), layer("i", scene::RayModel::kIsosurface)});
     scene.layers[0].coloured = true;
     scene.layers[1].coloured = true;
     EXPECT_EQ(effectsOf(scene),
@@ -58,10 +65,10 @@ TEST(WithoutEffects, OfBoundariesAndLevelsAreTheirOwn) {
 }
 
 TEST(WithoutEffects, ClipPlanesGoForEachLayerThatIsDrawnByUs) {
-    scene::Scene scene{
-        .layers = {layer("a", scene::RayModel::kMip), layer("hidden", scene::RayModel::kMip),
-                   layer("code", scene::RayModel::kMip)},
-        .clipPlanes = {{}, {}}};
+    scene::Scene scene =
+        sceneOf({layer("a", scene::RayModel::kMip), layer("hidden", scene::RayModel::kMip),
+                 layer("code", scene::RayModel::kMip)});
+    scene.clipPlanes.resize(2);
     scene.layers[1].visible = false;
     scene.layers[2].shader.code = "void main() {}";
     EXPECT_EQ(effectsOf(scene), Effects{"a: clip planes"});

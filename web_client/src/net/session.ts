@@ -221,7 +221,7 @@ export class Session implements Wire {
         this.#viewOf(body.value.view)?.questions.compared(body.value);
         break;
       case "thumbnail":
-        this.#viewOf(body.value.view)?.questions.drewThumbnail(body.value);
+        this.#viewOf(body.value.view)?.questions.thumbnail(body.value);
         break;
       case "shaderDescription":
         for (const view of this.#views) view.questions.described(body.value);

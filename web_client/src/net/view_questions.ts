@@ -40,6 +40,9 @@ export class ViewQuestions {
   /** Takes the thumbnail that was asked for last, or why there is none. */
   readonly #thumbnail: (answer: Thumbnail) => void;
 
+  /** Takes the thumbnail that was asked for last, or why there is none. */
+  readonly thumbnail: (answer: Thumbnail) => void;
+
   constructor(
     wire: Wire,
     state: AppState,
@@ -49,7 +52,7 @@ export class ViewQuestions {
     this.#wire = wire;
     this.#state = state;
     this.#view = view;
-    this.#thumbnail = thumbnail;
+    this.thumbnail = thumbnail;
   }
 
   /** Asks what a pixel of the picture of `inputSeq` shows; the answer is in `state.picked`. */
@@ -79,6 +82,30 @@ export class ViewQuestions {
     measuringBegan(this.#state, aim);
     const [estimate, effects] = [aim === "estimated", aim === "effectTimes"];
     this.#wire.send({ case: "measureAccuracy", value: { view, estimate, effects } });
+  }
+
+  /** Compares the picture with the reference; parts arrive in `state.difference`. */
+  compare(): void {
+    const view = this.#view();
+    if (view === undefined) return;
+    comparingBegan(this.#state);
+    this.#wire.send({ case: "measureDifference", value: { view, ...kCompared } });
+  }
+
+  stopComparing(): void {
+    const view = this.#view();
+    if (view === undefined || !this.#state.difference.value?.running) return;
+    this.#wire.send({ case: "measureDifference", value: { view, stop: true } });
+  }
+
+  /** Asks for a small picture of a scene; false where there is no view to ask in. */
+  drawThumbnail(request: number, scene: Scene, width: number, height: number): boolean {
+    const view = this.#view();
+    if (view === undefined) return false;
+    return this.#wire.send({
+      case: "drawThumbnail",
+      value: { view, request, scene, width, height },
+    });
   }
 
   stopMeasuring(): void {
@@ -139,11 +166,7 @@ export class ViewQuestions {
     comparisonReported(this.#state, report);
   }
 
-  drewThumbnail(answer: Thumbnail): void {
-    this.#thumbnail(answer);
-  }
-
-  /** Nothing that is measured is answered any more. */
+  /** Nothing more will be heard of what was measured or compared. */
   ended(why: string): void {
     measuringEnded(this.#state, why);
     comparisonEnded(this.#state, why);
@@ -160,10 +183,12 @@ export class ViewQuestions {
     // A pixel of a picture that newer ones have pushed out: the next picture is asked again.
     if (error.field === "input_seq" && error.inputSeq === this.#picking?.inputSeq) return true;
     if (error.field.startsWith("draw_thumbnail")) {
-      this.#thumbnail(create(ThumbnailSchema, { refusal: error.message }));
+      this.thumbnail(create(ThumbnailSchema, { refusal: error.message }));
       return true;
     }
-    const refused = this.#refusesMeasuring(error);
+    const running = isMeasuring(this.#state) || this.#state.difference.value?.running === true;
+    const aboutIt = error.field === "view" || /^scene\.layers\[\d+\]\.shader$/.test(error.field);
+    const refused = running && aboutIt && error.inputSeq === 0n;
     if (refused) this.ended(sentenceOf({ field: "", message: error.message }));
     return refused;
   }

@@ -1,6 +1,7 @@
 import { effect, untracked } from "@preact/signals";
 import { changeLayer, endGesture } from "./actions";
 import type { AppState } from "./app_state";
+import { whyNotSteering } from "./people";
 
 /** How time steps follow each other by themselves. */
 export interface Playing {
@@ -58,30 +59,40 @@ export function followTime(state: AppState, clock: Clock): () => void {
   let shownAt = Number.NEGATIVE_INFINITY;
   /** Timers of what was planned before do nothing. */
   let plan = 0;
+  /** The step that each input shows, of those whose picture may still come. */
+  const sent = new Map<bigint, number>();
+  const current = (): number => state.layer.value?.timeStep ?? 0;
   const advance = (): void => {
-    const { loop } = state.playing.value;
-    const next = nextStep(state.layer.value?.timeStep ?? 0, stepsOf(state), loop);
+    const next = nextStep(current(), stepsOf(state), state.playing.value.loop);
     if (next === undefined) togglePlaying(state);
     else {
       shownAt = clock.now();
       showStep(state, next);
     }
   };
-  return effect(() => {
+  const endNoting = effect(() => {
+    const inputSeq = state.newestInput.value;
+    sent.set(inputSeq, untracked(current));
+  });
+  const endPlaying = effect(() => {
     const { on, speed } = state.playing.value;
-    const picture = state.picture.value;
-    const isThere = !!picture && picture.inputSeq >= state.newestInput.value;
+    const shown = state.picture.value?.inputSeq ?? -1n;
+    for (const seq of sent.keys()) if (seq < shown) sent.delete(seq);
+    const isThere = sent.get(shown) === current();
     const count = stepsOf(state);
     plan += 1;
     if (!on || !isThere || state.connection.value.kind !== "open") return;
-    if (count < 2) {
+    if (count < 2 || whyNotSteering(state) !== undefined) {
       untracked(() => togglePlaying(state));
       return;
     }
     const mine = plan;
-    const wait = Math.max(0, shownAt + 1000 / speed - clock.now());
-    clock.after(wait, () => {
+    clock.after(Math.max(0, shownAt + 1000 / speed - clock.now()), () => {
       if (mine === plan) advance();
     });
   });
+  return () => {
+    endNoting();
+    endPlaying();
+  };
 }

@@ -2,6 +2,7 @@ import type { Pane } from "../pane";
 import type { Panes } from "../panes";
 import type { AppState } from "../state/app_state";
 import { badgeOf } from "../state/badge";
+import { whyNotSteering } from "../state/people";
 import { IconButton } from "./icons";
 import { Check } from "./inputs";
 import { lazy } from "./lazy";
@@ -19,8 +20,11 @@ const Difference = lazy(async () => (await import("./difference_overlay")).Diffe
 
 const ClipHandles = lazy(async () => (await import("./overlay_clip")).ClipHandles);
 
-const hasHandles = ({ options, scene }: AppState): boolean =>
-  options.value.handles && (scene.value?.clipPlanes.length ?? 0) > 0;
+/** Whoever does not steer has nothing to hold. */
+const hasHandles = (state: AppState): boolean =>
+  state.options.value.handles &&
+  (state.scene.value?.clipPlanes.length ?? 0) > 0 &&
+  whyNotSteering(state) === undefined;
 
 /** Fetched only where something of it is to be seen. */
 function Overlays({ state }: Pick<Pane, "state">) {

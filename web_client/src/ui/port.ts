@@ -15,6 +15,8 @@ export interface ViewPort {
   /** Begins to measure; nothing else is measured then. */
   measure(aim: MeasureAim): void;
   stopMeasuring(): void;
+  /** Shows the picture's difference from the reference, or shows it no more. */
+  compare(on: boolean): void;
   undo(): void;
   redo(): void;
   takeControl(): void;
@@ -26,8 +28,6 @@ export interface ViewPort {
   loadScene(file: File): void;
   /** Goes on with a copy of the view, alone. */
   leave(): void;
-  /** Shows the picture's difference from the reference, or shows it no more. */
-  compare(on: boolean): void;
 }
 
 /** What the panels ask of the page. */
