@@ -136,21 +136,6 @@ export function openPane(page: PanePort, beginning: PaneBeginning): Pane {
     },
     beginning,
   );
-  const thumbnails = new ThumbnailKeeper(state, (request, scene) => {
-    const { width, height } = thumbnailSize(devicePixelRatio);
-    return conversation.questions.drawThumbnail(request, scene, width, height);
-  });
-  const clock = {
-    now: () => performance.now(),
-    after: (ms: number, run: () => void) => void setTimeout(run, ms),
-  };
-  ends.push(
-    followThumbnails(state, thumbnails),
-    followTime(state, clock),
-    effect(() => {
-      if (needsComparison(state)) untracked(() => conversation.questions.compare());
-    }),
-  );
   const pictures = new Pictures({
     state,
     session,

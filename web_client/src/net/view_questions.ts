@@ -37,8 +37,6 @@ export class ViewQuestions {
   #picking: { readonly inputSeq: bigint; readonly x: number; readonly y: number } | undefined;
   /** The code whose description is waited for. */
   #describing: { readonly request: number; readonly asked: CodeOfData } | undefined;
-  /** Takes the thumbnail that was asked for last, or why there is none. */
-  readonly #thumbnail: (answer: Thumbnail) => void;
 
   /** Takes the thumbnail that was asked for last, or why there is none. */
   readonly thumbnail: (answer: Thumbnail) => void;
@@ -114,28 +112,6 @@ export class ViewQuestions {
     this.#wire.send({ case: "measureAccuracy", value: { view, stop: true } });
   }
 
-  /** Compares the picture with the reference; parts arrive in `state.difference`. */
-  compare(): void {
-    const view = this.#view();
-    if (view === undefined) return;
-    comparingBegan(this.#state);
-    this.#wire.send({ case: "measureDifference", value: { view, ...kCompared } });
-  }
-
-  stopComparing(): void {
-    const view = this.#view();
-    if (view === undefined || !this.#state.difference.value?.running) return;
-    this.#wire.send({ case: "measureDifference", value: { view, stop: true } });
-  }
-
-  /** Asks for a small picture of a scene; false where there is no view to ask in. */
-  drawThumbnail(request: number, scene: Scene, width: number, height: number): boolean {
-    const view = this.#view();
-    if (view === undefined) return false;
-    const value = { view, request, scene, width, height };
-    return this.#wire.send({ case: "drawThumbnail", value });
-  }
-
   /** Asks what the server reads in code; the newest answer alone counts. */
   describeShader(asked: CodeOfData): void {
     const request = this.#wire.newNumber();
@@ -191,11 +167,5 @@ export class ViewQuestions {
     const refused = running && aboutIt && error.inputSeq === 0n;
     if (refused) this.ended(sentenceOf({ field: "", message: error.message }));
     return refused;
-  }
-
-  #refusesMeasuring({ field, inputSeq }: ErrorMessage): boolean {
-    const running = isMeasuring(this.#state) || this.#state.difference.value?.running === true;
-    const about = field === "view" || /^scene\.layers\[\d+\]\.shader$/.test(field);
-    return running && about && inputSeq === 0n;
   }
 }
