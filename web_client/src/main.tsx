@@ -3,6 +3,7 @@ import { render } from "preact";
 import type { Frame } from "./net/framing";
 import { Codec } from "./net/gen/volcast/v1/frame_pb";
 import { Session } from "./net/session";
+import { followProbe } from "./probe";
 import { recordTurn } from "./record_turn";
 import { savePicture } from "./save_picture";
 import {
@@ -31,7 +32,6 @@ import type { EncodedPicture, PictureReport } from "./video/worker_messages";
 import { dragged, type Orbit, withOtherProjection } from "./view/camera";
 import { controlCamera } from "./view/camera_control";
 import { controlFlight } from "./view/fly_control";
-import { followHover, type HoverPlace, pixelAt } from "./view/hover";
 import { type KeyAction, meaningOf, takesKey } from "./view/keyboard";
 import { createPictureElement, keepHeight } from "./view/picture_element";
 import { levelled, looked, rolled, type Turn } from "./view/turning";
@@ -203,6 +203,8 @@ const port: AppPort = {
     session.open(id, left.get(id));
   },
   importAgain: (id) => session.importAgain(id),
+  drawThumbnail: (id) => session.drawThumbnail(id),
+  upload: (files, folder) => void sendFiles(files, folder),
   drawAgain: () => session.drawAgain(),
   reconnect: () => session.connect(),
   screenshot: () => void savePicture(state, screen),
@@ -222,6 +224,12 @@ const port: AppPort = {
     change?.catch((error: unknown) => notify(state, "info", `No full screen: ${String(error)}`));
   },
 };
+
+/** Shows what was uploaded as soon as the server lists it. */
+async function sendFiles(files: readonly File[], folder: string | undefined): Promise<void> {
+  const { upload } = await import("./state/send_upload");
+  await upload(state, files, folder, ([first]) => first && port.openDataset(first));
+}
 
 followSize(picture.element, (width, height) => {
   const size = limited(width, height, state.welcome.value?.limits?.maxSide || kMaxSide);
@@ -254,19 +262,7 @@ controlCamera(picture.element, {
   },
 });
 
-const hover = signal<HoverPlace | undefined>(undefined);
-followHover(picture.element, (place) => {
-  hover.value = place;
-});
-// Anew for every picture: what lies under a pointer at rest changes with it.
-effect(() => {
-  const shown = state.picture.value;
-  const pixel = hover.value && shown && pixelAt(hover.value, shown.width, shown.height);
-  untracked(() => {
-    if (pixel) session.pick(shown.inputSeq, pixel.x, pixel.y);
-    else session.stopPicking();
-  });
-});
+const probe = followProbe(picture.element, state, session);
 
 /** A turntable that follows a trackball stands upright again. */
 function toggleOption(name: ViewOption): void {
@@ -290,6 +286,7 @@ const kKeyActions: Readonly<Record<KeyAction, () => void>> = {
   box: () => toggleOption("box"),
   legend: () => toggleOption("legend"),
   hud: () => toggleOption("hud"),
+  pin: () => probe.togglePin(),
 };
 
 window.addEventListener("keydown", (event) => {

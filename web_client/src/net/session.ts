@@ -129,6 +129,11 @@ export class Session {
     this.#send({ case: "openDataset", value: { dataset } });
   }
 
+  /** Asks for a small picture of a dataset that is ready; it comes with the dataset's info. */
+  drawThumbnail(dataset: string): void {
+    this.#send({ case: "drawThumbnail", value: { dataset } });
+  }
+
   /** Sends everything again: the way out of a failed view. */
   drawAgain(): void {
     if (this.#view !== undefined) this.mark("scene");

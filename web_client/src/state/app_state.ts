@@ -13,12 +13,14 @@ import type { Apart } from "../transfer/apart";
 import { referenceLengthOf } from "../transfer/opacity";
 import type { TransferFunction } from "../transfer/transfer_function";
 import type { Bounds, Orbit } from "../view/camera";
+import type { HoverPlace } from "../view/hover";
 import { length, subtract, type Vec3 } from "../view/vec3";
 import type { Measured } from "./accuracy";
 import { type History, startHistory } from "./history";
 import type { Recording } from "./recording";
 import type { Sample } from "./samples";
 import type { DescribedCode } from "./shader_actions";
+import type { Upload } from "./upload";
 import { kUsualOptions, type ViewOptions } from "./view_options";
 
 export type ConnectionStatus =
@@ -154,11 +156,15 @@ export function createAppState() {
     picture: signal<PictureInfo | undefined>(undefined),
     /** What the picture shows under the resting pointer. */
     picked: signal<Picked | undefined>(undefined),
+    /** A place of the picture whose values stay in sight. */
+    pinned: signal<HoverPlace | undefined>(undefined),
     /** How the newest picture was drawn, where that was asked. */
     plan: signal<Plan | undefined>(undefined),
     /** What ways to draw a view are worth, where that was measured. */
     measured: signal<Measured | undefined>(undefined),
     newestInput: signal(0n),
+    /** Files that are being sent, or were refused. */
+    upload: signal<Upload | undefined>(undefined),
     notices: signal<readonly Notice[]>([]),
     framesPerSecond: signal(0),
     latency: signal<{ readonly p50: number; readonly p95: number } | undefined>(undefined),

@@ -35,6 +35,8 @@ interface Props {
 
 const Overlay = lazy(async () => (await import("./overlay")).Overlay);
 
+const DropZone = lazy(async () => (await import("./drop_zone")).DropZone);
+
 const Hud = lazy(async () => (await import("./hud")).Hud);
 
 /** Fetched only where something of it is to be seen. */
@@ -162,6 +164,7 @@ export function App({ state, port, helpOpen, picture }: Props) {
         </div>
       </aside>
       <Help open={helpOpen} />
+      <DropZone state={state} port={port} />
     </div>
   );
 }

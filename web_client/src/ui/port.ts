@@ -5,6 +5,9 @@ import type { ViewOption } from "../state/view_options";
 export interface AppPort {
   openDataset(id: string): void;
   importAgain(id: string): void;
+  drawThumbnail(id: string): void;
+  /** `folder`: that the files were in. */
+  upload(files: readonly File[], folder: string | undefined): void;
   drawAgain(): void;
   reconnect(): void;
   screenshot(): void;
