@@ -19,7 +19,7 @@ void Session::openDataset(const v1::OpenDataset& message) {
     send(reply);
 }
 
-void Session::drawThumbnail(const v1::DrawThumbnail& message) {
+void Session::drawDatasetThumbnail(const v1::DrawDatasetThumbnail& message) {
     const std::string& id = message.dataset();
     if (!shared_.catalogue.standing(id).loaded) {
         return send(errorMessage(v1::ERROR_CODE_NOT_FOUND,
@@ -120,6 +120,20 @@ void Session::measureAccuracy(const v1::MeasureAccuracy& message) {
     if (seat == nullptr) return;
     const auto begun = seat->view->measure(seat->viewer, message);
     if (!begun) send(errorMessage(begun.error(), {.view = message.view()}));
+}
+
+void Session::measureDifference(const v1::MeasureDifference& message) {
+    const Seat* seat = findOrRefuse(message.view(), 0);
+    if (seat == nullptr) return;
+    const auto begun = seat->view->measureDifference(seat->viewer, message);
+    if (!begun) send(errorMessage(begun.error(), {.view = message.view()}));
+}
+
+void Session::drawThumbnail(const v1::DrawThumbnail& message) {
+    const Seat* seat = findOrRefuse(message.view(), 0);
+    if (seat == nullptr) return;
+    const auto asked = seat->view->drawThumbnail(seat->viewer, message);
+    if (!asked) send(errorMessage(asked.error(), {.view = message.view()}));
 }
 
 void Session::pick(const v1::Pick& message) {

@@ -61,12 +61,14 @@ void SharedView::unseat(ViewerId id) {
     const bool first = viewers_.begin()->first == id;
     picks_.erase(id);
     if (picker_ == id) pickNext();
+    forgetThumbnails(id);
     viewers_.erase(id);
     dropUnused();
     if (viewers_.empty()) {
         emptySince_ = Clock::now();
         drawing_.reset();
         outbox_.put([&render = parts_.render, view = global_] { render.dropView(view); });
+        dropThumbnails();
     } else if (first) {
         refresh(Clock::now());  // News that it alone would have brought.
     }
@@ -106,6 +108,23 @@ void SharedView::handOver(ViewerId id, std::uint32_t person) {
     peopleChanged(id);
 }
 
+void SharedView::askControl(ViewerId id, bool withdraw) {
+    const Turn turn{*this};
+    if (find(id) == nullptr) return;
+    if (const std::string why = people_.ask(id, withdraw); !why.empty()) {
+        return tellRefusal(id, why, 0);
+    }
+    tellPeople();
+}
+
+void SharedView::rename(ViewerId id, const std::string& name) {
+    const Turn turn{*this};
+    if (find(id) == nullptr) return;
+    people_.at(id).name = name;
+    tellPeople();
+    changed();
+}
+
 /// Tells everybody; first the one who steers now and did not: `steered` did. They count from the
 /// newest input, which they must know before they steer.
 void SharedView::peopleChanged(ViewerId steered) {
@@ -114,12 +133,7 @@ void SharedView::peopleChanged(ViewerId steered) {
         spdlog::info(R"(event=control_taken view={} person={})", id_,
                      people_.at(people_.steering()).person);
         viewer->resize(viewer->size(), 0);
-        if (state_.scene && viewer->opened) {
-            v1::ServerMessage message = sceneMessage(0, false);
-            message.mutable_scene_changed()->set_input_seq(scene_.inputSeq());
-            message.mutable_scene_changed()->set_view(viewer->number());
-            tell(*viewer, std::move(message));
-        }
+        if (state_.scene && viewer->opened) tellScene(*viewer);
     }
     tellPeople();
     changed();
@@ -167,6 +181,7 @@ void SharedView::openRestored(TimePoint now) {
     if (!restored_) return;
     const SavedView saved = *std::exchange(restored_, std::nullopt);
     const auto change = scene_.put(saved.scene, saved.inputSeq);
+    history_.restore(saved.history);
     state_.inputAt = now;
     if (change) return apply(*change, now, 0);
     for (const auto& [id, viewer] : viewers_) {
@@ -179,7 +194,8 @@ std::optional<SavedView> SharedView::save() const {
     if (ended_ || (!restored_ && !state_.scene)) return std::nullopt;
     SavedView saved{.id = id_,
                     .inputSeq = restored_ ? restored_->inputSeq : scene_.shownSeq(),
-                    .scene = restored_ ? restored_->scene : *state_.scene};
+                    .scene = restored_ ? restored_->scene : *state_.scene,
+                    .history = restored_ ? restored_->history : history_.save()};
     for (const auto& [id, member] : people_.all()) {
         saved.people.push_back({.member = member, .steers = people_.steers(id)});
     }

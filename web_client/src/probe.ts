@@ -17,14 +17,14 @@ const kMiddle: HoverPlace = { x: 0.5, y: 0.5 };
  */
 export function followProbe(element: HTMLElement, state: AppState, picker: Picker) {
   const hover: Signal<HoverPlace | undefined> = signal(undefined);
-  followHover(element, (place) => {
+  const unhover = followHover(element, (place) => {
     hover.value = place;
   });
-  followTaps(element, (place) => {
+  const untap = followTaps(element, (place) => {
     state.pinned.value = place;
   });
   // Anew for every picture: what lies at a place changes with it.
-  effect(() => {
+  const unpick = effect(() => {
     const shown = state.picture.value;
     const place = state.pinned.value ?? hover.value;
     const pixel = place && shown && pixelAt(place, shown.width, shown.height);
@@ -34,6 +34,11 @@ export function followProbe(element: HTMLElement, state: AppState, picker: Picke
     });
   });
   return {
+    end(): void {
+      unhover();
+      untap();
+      unpick();
+    },
     /** Pins the place under the pointer, or the middle; a second time lets it go. */
     togglePin(): void {
       state.pinned.value = state.pinned.value ? undefined : (hover.value ?? kMiddle);

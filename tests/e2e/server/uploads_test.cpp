@@ -89,14 +89,14 @@ TEST_F(Uploads, FilesOfOneDatasetAppearInEveryClientsListAndAreDrawn) {
     EXPECT_NEAR(info->fields(0).mean(), 3.0, 0.1);  // f = x + 2 y + 3 z over the unit cube.
     // A picture for the list is drawn for whoever asks, and everybody gets it.
     v1::ClientMessage message;
-    message.mutable_draw_thumbnail()->set_dataset("uploads/my cube/cube.node");
+    message.mutable_draw_dataset_thumbnail()->set_dataset("uploads/my cube/cube.node");
     two.send(message);
     const auto drawn = one.waitFor([](const v1::ServerMessage& news) {
         return news.has_dataset_info() && !news.dataset_info().thumbnail().empty();
     });
     ASSERT_TRUE(drawn.has_value()) << process->log();
     EXPECT_EQ(drawn->dataset_info().thumbnail().substr(0, 3), "\xff\xd8\xff");
-    message.mutable_draw_thumbnail()->set_dataset("nothing");
+    message.mutable_draw_dataset_thumbnail()->set_dataset("nothing");
     two.send(message);
     const auto error = two.waitForError();
     ASSERT_TRUE(error.has_value());

@@ -5,7 +5,7 @@ import { isData, uploadName, uploadProblem } from "./upload_plan";
 
 /** Sends files, one upload at a time; `done` gets the datasets in them. */
 export async function upload(
-  state: AppState,
+  state: Pick<AppState, "welcome" | "upload">,
   files: readonly File[],
   folder: string | undefined,
   done: (datasets: readonly string[]) => void,

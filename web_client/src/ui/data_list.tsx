@@ -53,7 +53,7 @@ function Thumbnail({ info, port }: { readonly info: DatasetInfo; readonly port: 
     if (!place.current || !isReady || thumbnail.length > 0) return undefined;
     const observer = new IntersectionObserver(([entry]) => {
       if (!entry?.isIntersecting) return;
-      port.drawThumbnail(id);
+      port.drawDatasetThumbnail(id);
       observer.disconnect();
     });
     observer.observe(place.current);
