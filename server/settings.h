@@ -20,6 +20,8 @@ struct ServeSettings {
     unsigned importsAtOnce = 1;
     unsigned encodeThreads = 2;
     session::SessionLimits limits;
+    bool allowUploads = false;
+    session::UploadLimits uploads;
     bool allowFaults = false;  ///< Clients may let workers and imports fail.
     std::chrono::seconds keepViews{60};
     std::size_t maxOpenViews = 1024;  ///< In the whole server.

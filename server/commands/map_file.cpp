@@ -172,7 +172,7 @@ Result<data::ControlPoint> pointFrom(const json::value& item, const std::string&
 
 Result<TransferFunction> fromPoints(const json::object& object) {
     TransferFunction map;
-    auto read = checkKeys(object, {"points"});
+    auto read = checkKeys(object, {"points", "kind", "editor"});  // As the page saves them.
     if (!read) return read.error();
     read = forEach(object, "points", [&](const json::value& item, const std::string& key) {
         const auto point = pointFrom(item, key);

@@ -17,7 +17,8 @@ struct MapUsual {
 
 /// A transfer function from a file: lines `value r g b sigma`, or a JSON object with one of
 ///
-///     "points":    [{"value": V, "colour": {"r": R, "g": G, "b": B}, "extinction": S}, ...]
+///     "points":    [{"value": V, "colour": {"r": R, "g": G, "b": B}, "extinction": S}, ...];
+///                  the page's files have "kind" and "editor" besides, which are not read
 ///     "colours":   [[POSITION, COLOUR], ...] and "opacities": [[POSITION, OPACITY], ...],
 ///                  "curve": "spline" (where absent) or "lines"
 ///     "rgba":      [[R, G, B, OPACITY], ...] at equal steps

@@ -12,6 +12,7 @@
 #include <spdlog/spdlog.h>
 
 #include "server/commands/cache_folder.h"
+#include "server/session/thumbnails.h"
 #include "server/session/views.h"
 #include "server/settings.h"
 #include "server/video/video_patches.h"
@@ -65,6 +66,15 @@ Result<KeptState> openState(const ServeSettings& settings) {
     return kept;
 }
 
+/// Null where uploads are off.
+Result<std::unique_ptr<session::UploadFolder>> openUploads(const ServeSettings& settings) {
+    if (!settings.allowUploads) return std::unique_ptr<session::UploadFolder>{};
+    if (settings.dataFolder.empty()) {
+        return fail(ErrorCode::kInvalidArgument, "--allow-uploads needs a DATA_DIR to put them in");
+    }
+    return session::UploadFolder::create(settings.dataFolder, settings.uploads);
+}
+
 /// Builds the parts, joins them, serves.
 int serve(ServeSettings settings) {
     startLog(settings.logLevel);
@@ -85,6 +95,8 @@ int serve(ServeSettings settings) {
             "event=faults_allowed message=\"any client may let workers and imports fail\"");
         desc.imports.fault = [&faults] { return faults.takeForImport(); };
     }
+    auto uploads = openUploads(settings);  // Before its folder is listed.
+    if (!uploads) return complain(uploads.error());
     auto catalogue = session::Catalogue::create(std::move(desc), **render);
     if (!catalogue) return complain(catalogue.error());
     (void)video::videoPatches();  // Encoders are tried now, not when the first client waits.
@@ -101,13 +113,16 @@ int serve(ServeSettings settings) {
                           .keep = settings.keepViews,
                           .maxViews = settings.maxOpenViews,
                           .state = std::move(kept->folder)}};
+    session::Thumbnails thumbnails{**render, **catalogue, router, *encoders};
     session::Shared shared{.render = **render,
                            .catalogue = **catalogue,
                            .views = views,
                            .limits = settings.limits,
                            .server = settings.serverName,
                            .sourceUrl = settings.sourceUrl,
-                           .faults = settings.allowFaults ? &faults : nullptr};
+                           .faults = settings.allowFaults ? &faults : nullptr,
+                           .uploads = uploads->get(),
+                           .thumbnails = &thumbnails};
     auto server = net::Server::create(settings.listen, shared);
     if (!server) return complain(server.error());
     const workers::RenderStatus status = (*render)->status();
@@ -121,6 +136,7 @@ int serve(ServeSettings settings) {
     // An import that runs can take minutes; its process ends with this one.
     if ((*catalogue)->importing()) std::_Exit(0);
     // News of other threads end before the sockets' context does.
+    thumbnails.stop();
     encoders.reset();
     catalogue->reset();
     render->reset();
@@ -203,6 +219,44 @@ void addFaults(CLI::App& command, ServeSettings& settings) {
         ->needs(allowed);
 }
 
+void addUploads(CLI::App& command, ServeSettings& settings) {
+    session::UploadLimits& limits = settings.uploads;
+    CLI::Option* allowed =
+        command.add_flag("--allow-uploads", settings.allowUploads,
+                         "Everybody who may connect may upload data into DATA_DIR/uploads");
+    const auto size = [&](const char* name, std::uint64_t& bytes, const char* text) {
+        command
+            .add_option_function<std::uint64_t>(
+                name, [&bytes](std::uint64_t mib) { bytes = mib << 20U; }, text)
+            ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 32))
+            ->needs(allowed);
+    };
+    size("--max-upload-mb", limits.maxBytes, "MiB of one upload, all its files (default 1024)");
+    size("--max-uploads-mb", limits.maxTotalBytes,
+         "MiB of all uploads that are there (default 10240)");
+    size("--upload-keep-free-mb", limits.keepFreeBytes,
+         "MiB of the disk that uploads leave free (default 1024)");
+    command.add_option("--max-uploads", limits.maxUploads, "Uploads that are there")
+        ->check(CLI::Range(1U, 100'000U))
+        ->needs(allowed)
+        ->capture_default_str();
+    command.add_option("--max-upload-files", limits.maxFiles, "Files of one upload")
+        ->check(CLI::Range(1U, 100'000U))
+        ->needs(allowed)
+        ->capture_default_str();
+    command.add_option("--max-uploads-at-once", limits.maxAtOnce, "Files received at once")
+        ->check(CLI::Range(1U, 64U))
+        ->needs(allowed)
+        ->capture_default_str();
+    command
+        .add_option_function<std::int64_t>(
+            "--upload-patience-s",
+            [&limits](std::int64_t seconds) { limits.patience = std::chrono::seconds{seconds}; },
+            "So long 64 KiB of a file may take to arrive (default 20)")
+        ->check(CLI::Range(1, 3600))
+        ->needs(allowed);
+}
+
 void addState(CLI::App& command, ServeSettings& settings) {
     command.add_option("--state-dir", settings.stateFolder,
                        "Folder that keeps views over a restart; none: they end with the server");
@@ -256,6 +310,7 @@ void addServeCommand(CLI::App& app, int& exitCode) {
         ->check(CLI::IsMember({"debug", "info", "warning", "error", "off"}))
         ->capture_default_str();
     addState(command, *settings);
+    addUploads(command, *settings);
     addLimits(command, *settings);
     addFaults(command, *settings);
     command.callback([settings, &exitCode] { exitCode = serve(*settings); });

@@ -3,6 +3,7 @@
 #include <string>
 #include <utility>
 
+#include "server/net/negotiation.h"
 #include "server/session/metrics_text.h"
 #include "server/session/readiness.h"
 
@@ -102,7 +103,7 @@ Response HttpAnswers::metrics(const Request& request, bool fromLoopback) const {
 
 Response HttpAnswers::file(const Request& request) const {
     const std::string_view target = request.target();
-    auto found = files_.read(target);
+    auto found = files_.read(target, acceptsGzip(request[http::field::accept_encoding]));
     if (!found) {
         if (target == "/" && !files_.built()) {
             return make(request, http::status::service_unavailable, kNotBuilt,
@@ -118,11 +119,13 @@ Response HttpAnswers::file(const Request& request) const {
                              "the file cannot be read");
         }
     }
-    const bool same = request[http::field::if_none_match] == found->etag;
+    const bool same = namesEtag(request[http::field::if_none_match], found->etag);
     Response response = make(request, same ? http::status::not_modified : http::status::ok,
                              same ? std::string{} : std::move(found->content), found->mimeType);
     response.set(http::field::etag, found->etag);
     response.set(http::field::cache_control, found->cacheControl);
+    if (found->varies) response.set(http::field::vary, "Accept-Encoding");
+    if (found->gzipped && !same) response.set(http::field::content_encoding, "gzip");
     return response;
 }
 

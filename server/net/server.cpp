@@ -16,6 +16,7 @@
 #include "renderer/base/printable.h"
 #include "server/net/http_answers.h"
 #include "server/net/tls.h"
+#include "server/net/upload_body.h"
 #include "server/net/web_socket.h"
 #include "server/session/views.h"
 
@@ -49,7 +50,8 @@ public:
         : settings_{std::move(settings)},
           shared_{shared},
           files_{settings_.clientFolder},
-          answers_{files_, shared_, settings_.metricsFor} {}
+          answers_{files_, shared_, settings_.metricsFor},
+          uploads_{shared_, origins_} {}
 
     Result<void> listen();
     [[nodiscard]] std::string url() const override {
@@ -62,6 +64,10 @@ private:
     asio::awaitable<void> serveTls(Stream stream);
     template <class Layer>
     asio::awaitable<void> serve(Layer stream);
+    /// Answers a request for uploads; false where the connection is to end.
+    template <class Layer>
+    asio::awaitable<bool> serveUpload(Layer& stream, beast::flat_buffer& buffer,
+                                      http::request_parser<http::empty_body>& head);
     template <class Layer>
     asio::awaitable<void> serveWebSocket(Layer stream, Request request);
     [[nodiscard]] std::optional<Response> refusal(const Request& request) const;
@@ -73,6 +79,8 @@ private:
     session::Shared& shared_;
     StaticFiles files_;
     HttpAnswers answers_;
+    OriginRule origins_;
+    UploadAnswers uploads_;
     asio::io_context context_;
     Strand control_{asio::make_strand(context_)};  ///< Of the five below.
     asio::basic_socket_acceptor<Tcp, Strand> acceptor_{control_};
@@ -80,7 +88,6 @@ private:
     asio::steady_timer drained_{control_};
     asio::steady_timer pause_{control_};
     asio::steady_timer tidy_{control_};
-    OriginRule origins_;
     std::unique_ptr<asio::ssl::context> tls_;  ///< None: plain TCP.
     std::atomic<unsigned> connections_ = 0;
     std::atomic<unsigned> webSockets_ = 0;
@@ -227,6 +234,11 @@ asio::awaitable<void> BeastServer::serve(Layer stream) {
             co_await http::async_write(stream, tooLarge, kAsTuple);
         }
         if (error) break;
+        if (UploadAnswers::concerns(parser.get())) {
+            if (!co_await serveUpload(stream, buffer, parser)) break;
+            patience = kKeepAlive;
+            continue;
+        }
         Request request = parser.release();
         const bool upgrade = websocket::is_upgrade(request);
         auto refused = upgrade ? refusal(request) : std::nullopt;
@@ -248,6 +260,32 @@ asio::awaitable<void> BeastServer::serve(Layer stream) {
     }
     boost::system::error_code ignored;
     beast::get_lowest_layer(stream).socket().shutdown(Tcp::socket::shutdown_both, ignored);
+}
+
+template <class Layer>
+asio::awaitable<bool> BeastServer::serveUpload(Layer& stream, beast::flat_buffer& buffer,
+                                               http::request_parser<http::empty_body>& head) {
+    const Request request = head.get();
+    const bool hasBody = head.chunked() || head.content_length().value_or(0) > 0;
+    auto refused = uploads_.refusal(request);
+    bool bodyRead = !hasBody;
+    Response response;
+    if (refused) {
+        response = std::move(*refused);
+    } else if (UploadAnswers::isFile(request)) {
+        UploadParser parser{std::move(head)};
+        parser.body_limit(boost::none);  // The folder has limits, and says which was met.
+        response = co_await receiveUpload(stream, buffer, parser, request, uploads_.folder());
+        bodyRead = parser.is_done();
+    } else {
+        response = uploads_.answer(request);
+    }
+    response.keep_alive(request.keep_alive() && bodyRead);
+    if (request.method() == http::verb::head) response.body().clear();  // Its length stays.
+    beast::get_lowest_layer(stream).expires_after(kKeepAlive);
+    const auto [failed, sent] = co_await http::async_write(stream, response, kAsTuple);
+    if (!failed && !bodyRead) co_await linger(stream);
+    co_return !failed && response.keep_alive();
 }
 
 std::optional<Response> BeastServer::refusal(const Request& request) const {

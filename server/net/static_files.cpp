@@ -1,5 +1,6 @@
 #include "server/net/static_files.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cstdint>
@@ -8,7 +9,9 @@
 #include <unistd.h>
 #include <utility>
 
+#include "renderer/base/file_descriptor.h"
 #include "server/session/beneath.h"
+#include "server/video/gzip.h"
 
 namespace volcast::net {
 
@@ -32,6 +35,16 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 16> kMimeTyp
     {".txt", "text/plain; charset=utf-8"},
     {".md", "text/plain; charset=utf-8"},
 }};
+
+/// What this compresses: pictures and fonts are compressed already.
+constexpr std::array<std::string_view, 10> kTexts{".html", ".js",  ".mjs",         ".css", ".json",
+                                                  ".map",  ".svg", ".webmanifest", ".txt", ".md"};
+constexpr std::size_t kMostGzipped = 512;  ///< Files kept; a built client has some dozens.
+constexpr std::size_t kMaxGzipBytes = std::size_t{8} << 20U;
+
+bool isText(std::string_view path) {
+    return std::ranges::any_of(kTexts, [&](std::string_view end) { return path.ends_with(end); });
+}
 
 std::string hex(std::uint64_t value) {
     std::array<char, 16> digits{};
@@ -84,7 +97,7 @@ Result<std::string> pathOf(std::string_view target) {
     return path;
 }
 
-Result<StaticFile> StaticFiles::read(std::string_view target) const {
+Result<StaticFile> StaticFiles::read(std::string_view target, bool gzip) const {
     auto path = pathOf(target);
     if (!path) return path.error();
     if (path->empty()) *path = "index.html";
@@ -102,10 +115,34 @@ Result<StaticFile> StaticFiles::read(std::string_view target) const {
     const auto time = static_cast<std::uint64_t>(status.st_mtim.tv_sec) * 1'000'000'000 +
                       static_cast<std::uint64_t>(status.st_mtim.tv_nsec);
     const bool hashed = path->starts_with("assets/");
-    return StaticFile{.content = std::move(*content),
-                      .mimeType = mimeTypeOf(*path),
-                      .etag = '"' + hex(size) + '-' + hex(time) + '"',
-                      .cacheControl = hashed ? "public, max-age=31536000, immutable" : "no-cache"};
+    StaticFile answer;
+    answer.content = std::move(*content);
+    answer.mimeType = mimeTypeOf(*path);
+    answer.cacheControl = hashed ? "public, max-age=31536000, immutable" : "no-cache";
+    answer.varies = isText(*path) && size <= kMaxGzipBytes;
+    const std::string version = hex(size) + '-' + hex(time);
+    if (gzip && answer.varies) {
+        if (const Gzipped small = gzipped(*path + ' ' + version, answer.content)) {
+            answer.content = *small;
+            answer.gzipped = true;
+        }
+    }
+    answer.etag = '"' + version + (answer.gzipped ? "-gz\"" : "\"");
+    return answer;
+}
+
+StaticFiles::Gzipped StaticFiles::gzipped(const std::string& name,
+                                          const std::string& content) const {
+    const std::lock_guard lock{mutex_};  // Also so that nobody compresses the same twice.
+    const auto found = gzipped_.find(name);
+    if (found != gzipped_.end()) return found->second;
+    if (gzipped_.size() >= kMostGzipped) gzipped_.clear();  // Versions that were built over.
+    auto packed = video::gzip(content);
+    const bool smaller = packed && packed->size() < content.size();
+    const Gzipped kept =
+        smaller ? std::make_shared<const std::string>(std::move(*packed)) : nullptr;
+    gzipped_.emplace(name, kept);
+    return kept;
 }
 
 bool StaticFiles::built() const {

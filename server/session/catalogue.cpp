@@ -93,6 +93,11 @@ v1::DatasetList Catalogue::list() {
     return all;
 }
 
+void Catalogue::refresh() {
+    const std::lock_guard lock{mutex_};
+    rescan();
+}
+
 Result<v1::DatasetInfo> Catalogue::open(const std::string& id) {
     const std::lock_guard lock{mutex_};
     rescan();
@@ -152,6 +157,20 @@ scene::Summaries Catalogue::summaries(const std::vector<std::string>& ids) const
         if (found != entries_.end() && found->second.summary) all[id] = *found->second.summary;
     }
     return all;
+}
+
+void Catalogue::setThumbnail(const std::string& id, std::uint64_t version, std::string jpeg) {
+    const std::lock_guard lock{mutex_};
+    const auto found = entries_.find(id);
+    if (found == entries_.end() || found->second.version != version) return;
+    found->second.info.set_thumbnail(std::move(jpeg));
+    tell(found->second.info);
+}
+
+bool Catalogue::hasThumbnail(const std::string& id) const {
+    const std::lock_guard lock{mutex_};
+    const auto found = entries_.find(id);
+    return found != entries_.end() && !found->second.info.thumbnail().empty();
 }
 
 bool Catalogue::importing() const {
@@ -234,6 +253,8 @@ void Catalogue::progressed(const std::string& id, const std::string& stage, doub
 void Catalogue::finished(Entry& entry, workers::ImportedDataset imported) {
     const std::string id = entry.info.id();
     entry.info = describe(id, entry.info.name(), imported.summary, imported.warnings);
+    addMoments(entry.info, imported.moments);
+    *entry.info.mutable_log() = logOf(imported);
     entry.info.set_version(++entry.version);
     entry.summary = std::move(imported.summary);
     render_.addDataset(id, std::move(imported.packed));

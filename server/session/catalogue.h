@@ -70,6 +70,9 @@ public:
     /// All datasets; looks into the folder again where the last look is older than a second.
     v1::DatasetList list();
 
+    /// Looks into the folder now, and tells everybody what is new in it.
+    void refresh();
+
     /// Starts an import where the dataset was never read, failed before, or changed on disk.
     ///
     /// Errors: kNotFound (no such dataset, or its file vanished; what is loaded stays).
@@ -81,6 +84,9 @@ public:
     [[nodiscard]] DatasetStanding standing(const std::string& id) const;
     /// Summaries of those of `ids` that are loaded.
     [[nodiscard]] scene::Summaries summaries(const std::vector<std::string>& ids) const;
+    /// Tells everybody, if that version is still the one that is loaded.
+    void setThumbnail(const std::string& id, std::uint64_t version, std::string jpeg);
+    [[nodiscard]] bool hasThumbnail(const std::string& id) const;
     [[nodiscard]] bool importing() const;
     [[nodiscard]] ImportCounts importCounts() const;
 

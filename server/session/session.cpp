@@ -92,12 +92,14 @@ void Session::receive(std::span<const std::byte> bytes, Form form, TimePoint now
             return measureAccuracy(message->measure_accuracy());
         case v1::ClientMessage::kMeasureDifference:
             return measureDifference(message->measure_difference());
-        case v1::ClientMessage::kDrawThumbnail: return drawThumbnail(message->draw_thumbnail());
         case v1::ClientMessage::kPick: return pick(message->pick());
         case v1::ClientMessage::kDescribeShader: return describeShader(message->describe_shader());
         case v1::ClientMessage::kInjectFault: return injectFault(message->inject_fault());
         case v1::ClientMessage::kSetPins: return setPins(message->set_pins(), now);
         case v1::ClientMessage::kPatchDecoded: return patchDecoded(message->patch_decoded());
+        case v1::ClientMessage::kDrawThumbnail: return drawThumbnail(message->draw_thumbnail());
+        case v1::ClientMessage::kDrawDatasetThumbnail:
+            return drawDatasetThumbnail(message->draw_dataset_thumbnail());
         case v1::ClientMessage::kPing: {
             v1::ServerMessage reply;
             reply.mutable_pong()->set_token(message->ping().token());
@@ -185,6 +187,10 @@ void Session::welcome() {
     limits.set_max_layers(scene::Scene::kMaxLayers);
     limits.set_max_control_points(data::TransferFunction::kMaxPoints);
     limits.set_max_message_bytes(shared_.limits.maxMessageBytes);
+    if (shared_.uploads != nullptr) {
+        welcome.mutable_uploads()->set_max_bytes(shared_.uploads->limits().maxBytes);
+        welcome.mutable_uploads()->set_max_files(shared_.uploads->limits().maxFiles);
+    }
     send(message);
     v1::ServerMessage list;
     *list.mutable_dataset_list() = shared_.catalogue.list();

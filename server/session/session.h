@@ -81,6 +81,7 @@ private:
     void welcome();
     void comeBack(const std::map<std::uint32_t, std::string>& views);
     void openDataset(const v1::OpenDataset& message);
+    void drawDatasetThumbnail(const v1::DrawDatasetThumbnail& message);
     void openView(const v1::OpenView& message, TimePoint now);
     void joinView(const v1::OpenView& message, scene::PictureSize size, TimePoint now);
     void takeSeat(std::uint32_t number, std::shared_ptr<SharedView> view, ViewerId viewer);

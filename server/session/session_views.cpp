@@ -7,6 +7,7 @@
 #include "server/session/on_strand.h"
 #include "server/session/session.h"
 #include "server/session/shader_description.h"
+#include "server/session/thumbnails.h"
 
 namespace volcast::session {
 
@@ -16,6 +17,16 @@ void Session::openDataset(const v1::OpenDataset& message) {
     v1::ServerMessage reply;
     *reply.mutable_dataset_info() = *info;
     send(reply);
+}
+
+void Session::drawDatasetThumbnail(const v1::DrawDatasetThumbnail& message) {
+    const std::string& id = message.dataset();
+    if (!shared_.catalogue.standing(id).loaded) {
+        return send(errorMessage(v1::ERROR_CODE_NOT_FOUND,
+                                 "dataset \"" + id + "\" is not loaded; open_dataset loads it",
+                                 {.dataset = id}, "dataset"));
+    }
+    if (shared_.thumbnails != nullptr) shared_.thumbnails->draw(id);
 }
 
 void Session::openView(const v1::OpenView& message, TimePoint now) {

@@ -8,12 +8,14 @@
 #include "server/metrics/metrics.h"
 #include "server/session/catalogue.h"
 #include "server/session/encode_pool.h"
+#include "server/session/upload_folder.h"
 #include "server/session/view_router.h"
 #include "server/workers/fault_switch.h"
 #include "server/workers/render_service.h"
 
 namespace volcast::session {
 
+class Thumbnails;
 class Views;
 
 /// What one connection may ask for; told to clients in the welcome.
@@ -46,6 +48,8 @@ struct Shared {
     std::string server;                      ///< Name and version.
     std::string sourceUrl;                   ///< Where the source of this server is.
     workers::FaultSwitch* faults = nullptr;  ///< Null: nobody may inject faults.
+    UploadFolder* uploads = nullptr;         ///< Null: nobody may upload.
+    Thumbnails* thumbnails = nullptr;        ///< Null: lists have no pictures.
     metrics::Metrics metrics = {};
 };
 

@@ -116,6 +116,7 @@ Result<ImportedDataset> accept(LastWord word, const ImportRequest& request) {
     for (std::string& warning : data::warningsOf(summary)) warnings.push_back(std::move(warning));
     return ImportedDataset{.packed = std::move(word.packed),
                            .summary = std::move(summary),
+                           .moments = data::momentsOf(*dataset),
                            .format = imported.format(),
                            .warnings = std::move(warnings),
                            .ms = imported.ms(),

@@ -11,6 +11,7 @@
 #include "renderer/base/file_descriptor.h"
 #include "renderer/base/result.h"
 #include "renderer/data/dataset.h"
+#include "renderer/data/moments.h"
 #include "renderer/worker/fault_names.h"
 
 namespace volcast::workers {
@@ -33,6 +34,7 @@ struct ImportSettings {
 struct ImportedDataset {
     base::FileDescriptor packed;  ///< Sealed; unpack() has accepted it.
     data::DatasetSummary summary;
+    std::vector<data::Moments> moments;  ///< Of each of its fields.
     std::string format;
     std::vector<std::string> warnings;
     double ms = 0, peakMb = 0;

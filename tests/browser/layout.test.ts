@@ -131,6 +131,27 @@ describe("layout", () => {
     await client.close();
   });
 
+  it("the legend of a narrow picture lies beside its middle", async () => {
+    const client = await Client.open(browser, server.url, kNarrow);
+    const places = async () => {
+      const legend = await client.page.locator(".legend").boundingBox();
+      const axes = await client.page.locator(".axes").boundingBox();
+      const picture = await client.page.locator(".picture").boundingBox();
+      if (!legend || !axes || !picture) throw new Error("something has no box");
+      return { legend, axes, picture };
+    };
+    const apart = async (): Promise<void> => {
+      const { legend, axes, picture } = await places();
+      expect(legend.y + legend.height).toBeLessThan(picture.y + picture.height / 3);
+      expect(legend.x).toBeGreaterThanOrEqual(picture.x);
+      expect(legend.x + legend.width).toBeLessThanOrEqual(axes.x);
+    };
+    await apart();
+    await client.after(() => client.page.locator(".sheet-toggle").click());
+    await apart();
+    await client.close();
+  });
+
   it("keeps the sheet on top of nothing that it hides", async () => {
     const client = await Client.open(browser, server.url, kNarrow);
     const closed = await client.page.locator(".picture").boundingBox();

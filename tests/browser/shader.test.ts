@@ -120,6 +120,45 @@ async function apply(code: string): Promise<void> {
   await client.after(() => editor().press("Control+Enter"));
 }
 
+describe("the examples", () => {
+  const examples = () => client.page.getByLabel("Start from an example");
+
+  it("each draw something of their own", async () => {
+    const own = "void main() { emitRGB(vec3(1.0)); }";
+    await editor().fill(own);
+    const names = (await examples().locator("option").allTextContents()).slice(1);
+    expect(names.length).toBeGreaterThanOrEqual(7);
+    for (const kind of ["slider", "color", "checkbox", "select", "invlerp", "transferFunction"]) {
+      expect(
+        names.some((name) => name.startsWith(`${kind}:`)),
+        kind,
+      ).toBe(true);
+    }
+    const seen = new Set<string>();
+    for (const name of names) {
+      await examples().selectOption({ label: name });
+      await client.after(() => editor().press("Control+Enter"));
+      expect(await complaints().count(), name).toBe(0);
+      seen.add(await picture());
+    }
+    // The tinted range begins as the colours' one does, for values of the demo: some may agree.
+    expect(seen.size).toBeGreaterThanOrEqual(names.length - 1);
+    await examples().selectOption({ label: "Back to your own code" });
+    expect(await editor().inputValue()).toBe(own);
+    expect(client.complaints).toEqual([]);
+  });
+
+  it("a complaint shows its line", async () => {
+    await editor().fill("void main() {\n  discard;\n}");
+    await editor().press("Control+Enter");
+    await complaints().first().getByRole("button").click();
+    const chosen = await editor().evaluate((e: HTMLTextAreaElement) =>
+      e.value.slice(e.selectionStart, e.selectionEnd),
+    );
+    expect(chosen).toBe("  discard;");
+  });
+});
+
 describe("a transferFunction control", () => {
   const points = () => client.page.locator(".shader-map .map-point");
   const field = (name: string) =>

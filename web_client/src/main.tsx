@@ -64,6 +64,8 @@ const active = () => panes.active.value;
 
 const pagePort: PagePort = {
   importAgain: (id) => session.importAgain(id),
+  drawDatasetThumbnail: (id) => session.drawDatasetThumbnail(id),
+  upload: (files, folder) => void sendFiles(files, folder),
   reconnect: () => session.connect(),
   toggle: (name) => toggleOption(name),
   toggleFullscreen() {
@@ -95,6 +97,12 @@ const pagePort: PagePort = {
   },
   url: () => addressBar.url(),
 };
+
+/** Shows what was uploaded, in the active view, as soon as the server lists it. */
+async function sendFiles(files: readonly File[], folder: string | undefined): Promise<void> {
+  const { upload } = await import("./state/send_upload");
+  await upload(shared, files, folder, ([first]) => first && active().port.openDataset(first));
+}
 
 const camera = {
   orbit: () => active().state.orbit.value,
@@ -134,6 +142,7 @@ const kKeyActions: Readonly<Record<KeyAction, () => void>> = {
   box: () => toggleOption("box"),
   legend: () => toggleOption("legend"),
   hud: () => toggleOption("hud"),
+  pin: () => active().togglePin(),
 };
 
 window.addEventListener("keydown", (event) => {

@@ -1,9 +1,10 @@
-import { batch, computed, effect, type ReadonlySignal, signal, untracked } from "@preact/signals";
+import { batch, computed, effect, type ReadonlySignal, untracked } from "@preact/signals";
 import { Role } from "./net/gen/volcast/v1/session_pb";
 import type { Session } from "./net/session";
 import { type ViewBeginning, ViewConversation } from "./net/view_conversation";
 import { kAnything, wishForScene } from "./net/wish";
 import { Pictures } from "./pictures";
+import { followProbe } from "./probe";
 import { recordTurn } from "./record_turn";
 import { savePicture } from "./save_picture";
 import { loadedScene, saveScene } from "./scene_file";
@@ -34,7 +35,6 @@ import { followTime } from "./state/time_steps";
 import type { ViewPort } from "./ui/port";
 import { withOtherProjection } from "./view/camera";
 import { controlCamera } from "./view/camera_control";
-import { followHover, type HoverPlace, pixelAt } from "./view/hover";
 import { createPictureElement, type PictureElement } from "./view/picture_element";
 import type { Turn } from "./view/turning";
 import { followSize, limited } from "./view/viewport";
@@ -50,6 +50,8 @@ export interface Pane {
   readonly pictures: Pictures;
   readonly conversation: ViewConversation;
   readonly port: ViewPort;
+  /** Keeps the values of a place in sight, or lets it go. */
+  togglePin(): void;
   /** Does `change` without telling the server. */
   adopt(change: () => void): void;
   close(): void;
@@ -237,21 +239,8 @@ export function openPane(page: PanePort, beginning: PaneBeginning): Pane {
     }),
   );
 
-  const hover = signal<HoverPlace | undefined>(undefined);
-  ends.push(
-    followHover(picture.element, (place) => {
-      hover.value = place;
-    }),
-    // Anew for every picture: what lies under a pointer at rest changes with it.
-    effect(() => {
-      const shown = state.picture.value;
-      const pixel = hover.value && shown && pixelAt(hover.value, shown.width, shown.height);
-      untracked(() => {
-        if (pixel) conversation.questions.pick(shown.inputSeq, pixel.x, pixel.y);
-        else conversation.questions.stopPicking();
-      });
-    }),
-  );
+  const probe = followProbe(picture.element, state, conversation.questions);
+  ends.push(probe.end);
 
   const { people, questions } = conversation;
   const thumbnails = new ThumbnailKeeper(state, (request, scene) => {
@@ -316,6 +305,7 @@ export function openPane(page: PanePort, beginning: PaneBeginning): Pane {
   return {
     key: lastKey,
     state,
+    togglePin: probe.togglePin,
     picture,
     pictures,
     conversation,

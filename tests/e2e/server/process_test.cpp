@@ -91,6 +91,39 @@ TEST(Files, TheClientIsServedFromItsFolderAndNothingElseIs) {
     }
 }
 
+// What goes over the wire is what a browser asks for; a cache between knows that there are two.
+TEST(Files, TextIsSentCompressedToThoseWhoTakeGzip) {
+    const TemporaryFolder folder;
+    const std::string page = "<!doctype html>" + std::string(20'000, 'x');
+    writeFile(folder.path() / "index.html", page);
+    const ServerProcess server{{"--client-dir", folder.path().string()}};
+    ASSERT_TRUE(server.ready()) << server.log();
+    const HttpReply packed = http(server.port(), "/", "GET", "Accept-Encoding: br, gzip\r\n");
+    EXPECT_EQ(packed.status, 200U);
+    EXPECT_EQ(packed.headers.at("content-encoding"), "gzip");
+    EXPECT_EQ(packed.headers.at("vary"), "Accept-Encoding");
+    EXPECT_EQ(packed.headers.at("content-type"), "text/html; charset=utf-8");
+    EXPECT_EQ(packed.headers.at("content-length"), std::to_string(packed.body.size()));
+    EXPECT_LT(packed.body.size(), 200U);
+    EXPECT_EQ(packed.body.substr(0, 2), "\x1f\x8b");
+    for (const char* accepts : {"", "Accept-Encoding: gzip;q=0\r\n"}) {
+        const HttpReply plain = http(server.port(), "/", "GET", accepts);
+        EXPECT_EQ(plain.body, page);
+        EXPECT_EQ(plain.headers.count("content-encoding"), 0U);
+        EXPECT_EQ(plain.headers.at("vary"), "Accept-Encoding");
+        EXPECT_NE(plain.headers.at("etag"), packed.headers.at("etag"));
+    }
+    const std::string known = "Accept-Encoding: gzip\r\nIf-None-Match: W/\"other\", " +
+                              packed.headers.at("etag") + "\r\n";
+    const HttpReply same = http(server.port(), "/", "GET", known);
+    EXPECT_EQ(same.status, 304U);
+    EXPECT_EQ(same.body, "");
+    EXPECT_EQ(same.headers.at("vary"), "Accept-Encoding");
+    const HttpReply head = http(server.port(), "/", "HEAD", "Accept-Encoding: gzip\r\n");
+    EXPECT_EQ(head.headers.at("content-length"), packed.headers.at("content-length"));
+    EXPECT_EQ(head.body, "");
+}
+
 TEST(Start, AClientThatIsNotBuiltIsSaidPlainly) {
     const ServerProcess server{{"--client-dir", "/nonexistent"}};
     ASSERT_TRUE(server.ready()) << server.log();

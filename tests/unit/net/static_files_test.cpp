@@ -2,9 +2,11 @@
 
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <unistd.h>
 
 #include <gtest/gtest.h>
+#include <libdeflate.h>
 
 namespace volcast::net {
 namespace {
@@ -68,6 +70,56 @@ TEST_F(StaticFilesTest, NoPathLeadsOut) {
         ASSERT_FALSE(file.has_value()) << target;
         EXPECT_EQ(file.error().code, ErrorCode::kInvalidArgument) << target;
     }
+}
+
+std::string unzipped(const std::string& packed) {
+    std::string content(std::size_t{1} << 20U, '\0');
+    const std::unique_ptr<libdeflate_decompressor, decltype(&libdeflate_free_decompressor)> with{
+        libdeflate_alloc_decompressor(), &libdeflate_free_decompressor};
+    std::size_t size = 0;
+    const auto result = libdeflate_gzip_decompress(with.get(), packed.data(), packed.size(),
+                                                   content.data(), content.size(), &size);
+    content.resize(result == LIBDEFLATE_SUCCESS ? size : 0);
+    return content;
+}
+
+TEST_F(StaticFilesTest, TextIsGzippedForThoseWhoTakeItAndPicturesAreNot) {
+    const std::string script(5000, ';');
+    std::ofstream{base / "client/assets/index-1f2e.js"} << script;
+    std::ofstream{base / "client/assets/dot.png"} << script;
+    const StaticFiles files{base / "client"};
+    const auto plain = files.read("/assets/index-1f2e.js");
+    const auto packed = files.read("/assets/index-1f2e.js", true);
+    ASSERT_TRUE(plain.has_value() && packed.has_value());
+    EXPECT_EQ(plain->content, script);
+    EXPECT_FALSE(plain->gzipped);
+    EXPECT_TRUE(packed->gzipped);
+    EXPECT_EQ(unzipped(packed->content), script);
+    EXPECT_TRUE(plain->varies && packed->varies);
+    EXPECT_NE(plain->etag, packed->etag);
+    EXPECT_EQ(files.read("/assets/index-1f2e.js", true)->content, packed->content);
+    const auto picture = files.read("/assets/dot.png", true);
+    ASSERT_TRUE(picture.has_value());
+    EXPECT_EQ(picture->content, script);
+    EXPECT_FALSE(picture->varies);
+}
+
+TEST_F(StaticFilesTest, WhatGzipMakesLargerIsSentAsItIs) {
+    const auto file = StaticFiles{base / "client"}.read("/assets/index-1f2e.js", true);
+    ASSERT_TRUE(file.has_value());
+    EXPECT_EQ(file->content, "1;");
+    EXPECT_FALSE(file->gzipped);
+}
+
+TEST_F(StaticFilesTest, AFileThatIsBuiltAgainIsCompressedAgain) {
+    const StaticFiles files{base / "client"};
+    std::ofstream{base / "client/index.html"} << std::string(4000, 'a');
+    const auto before = files.read("/", true);
+    std::ofstream{base / "client/index.html"} << std::string(4001, 'b');
+    const auto after = files.read("/", true);
+    ASSERT_TRUE(before.has_value() && after.has_value());
+    EXPECT_EQ(unzipped(after->content), std::string(4001, 'b'));
+    EXPECT_NE(before->etag, after->etag);
 }
 
 TEST_F(StaticFilesTest, AClientThatIsNotBuiltIsNoError) {

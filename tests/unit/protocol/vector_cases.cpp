@@ -81,6 +81,7 @@ std::vector<std::pair<std::string, std::string>> clientMeanings() {
         {"undo", R"({"undo":{"view":2}})"},
         {"redo", R"({"undo":{"view":2,"redo":true,"inputSeq":"9007199254740993"}})"},
         {"no_body", "{}"},
+        {"draw_dataset_thumbnail", R"({"drawDatasetThumbnail":{"dataset":"a b/é.vtu"}})"},
     };
 }
 
@@ -163,6 +164,15 @@ std::vector<std::pair<std::string, std::string>> serverMeanings() {
         {"error_dataset", R"({"error":{"code":"ERROR_CODE_IMPORT_FAILED","message":"x.vtu: empty",)"
                           R"("dataset":"x.vtu"}})"},
         {"pong", R"({"pong":{"token":"9007199254740993"}})"},
+        {"welcome_uploads",
+         R"({"welcome":{"major":1,"uploads":{"maxBytes":"9007199254740993","maxFiles":4096}}})"},
+        {"dataset_info_read",
+         R"({"datasetInfo":{"id":"v","fields":[{"name":"f","mean":0,"deviation":2.5,)"
+         R"("values":"16384","withoutValue":"9007199254740993"}],"spacing":{"x":0.5,"y":1,"z":2},)"
+         R"("voxelType":"u16","log":{"format":"NRRD","ms":12.5,"peakMb":64,)"
+         R"("finished":"1800000000","cellsWithoutVolume":"1","cellsInverted":"2",)"
+         R"("cellsDoubled":"3","facesNotManifold":"4","boundaryFaces":"5","coarserLevels":6},)"
+         R"("thumbnail":"/9j/"}})"},
     };
 }
 

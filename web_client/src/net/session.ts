@@ -98,6 +98,11 @@ export class Session implements Wire {
     this.send({ case: "openDataset", value: { dataset } });
   }
 
+  /** Asks for a small picture of a dataset that is ready; it comes with the dataset's info. */
+  drawDatasetThumbnail(dataset: string): void {
+    this.send({ case: "drawDatasetThumbnail", value: { dataset } });
+  }
+
   /** The name that others see from now on. */
   rename(person: string): void {
     this.send({ case: "setName", value: { person } });

@@ -88,6 +88,11 @@ export function changeMap(
   changeEdit(state, asPart(slot, { ...edit, map, apart }), gesture);
 }
 
+/** Replaces all of a map, as one step that can be undone. */
+export function changeMapEdit(state: AppState, edit: MapEdit, slot: Slot = "first"): void {
+  changeEdit(state, asPart(slot, edit));
+}
+
 /** Edits colours and opacities by points of their own, or together; the picture stays. */
 export function switchApart(state: AppState, on: boolean, slot: Slot = "first"): void {
   const edit = mapEditOf(state, slot);

@@ -15,6 +15,7 @@ import type { Apart } from "../transfer/apart";
 import { referenceLengthOf } from "../transfer/opacity";
 import type { TransferFunction } from "../transfer/transfer_function";
 import type { Bounds, Orbit } from "../view/camera";
+import type { HoverPlace } from "../view/hover";
 import { length, subtract, type Vec3 } from "../view/vec3";
 import type { Measured } from "./accuracy";
 import type { Difference } from "./difference";
@@ -24,6 +25,7 @@ import type { Recording } from "./recording";
 import type { Sample } from "./samples";
 import type { DescribedCode } from "./shader_actions";
 import { kUsualPlaying, type Playing } from "./time_steps";
+import type { Upload } from "./upload";
 import { kUsualOptions, type ViewOptions } from "./view_options";
 
 export type ConnectionStatus =
@@ -123,6 +125,8 @@ export function createSharedState() {
     connection: signal<ConnectionStatus>({ kind: "connecting" }),
     welcome: signal<Welcome | undefined>(undefined),
     datasets: signal<readonly DatasetInfo[]>([]),
+    /** Files that are being sent, or were refused. */
+    upload: signal<Upload | undefined>(undefined),
     options: signal<ViewOptions>(kUsualOptions),
     notices: signal<readonly Notice[]>([]),
   };
@@ -199,6 +203,8 @@ export function createAppState(shared: SharedState = createSharedState()) {
     picture: signal<PictureInfo | undefined>(undefined),
     /** What the picture shows under the resting pointer. */
     picked: signal<Picked | undefined>(undefined),
+    /** A place of the picture whose values stay in sight. */
+    pinned: signal<HoverPlace | undefined>(undefined),
     /** How the newest picture was drawn, where that was asked. */
     plan: signal<Plan | undefined>(undefined),
     /** What ways to draw a view are worth, where that was measured. */

@@ -11,7 +11,7 @@ import {
 } from "../net/gen/volcast/v1/scene_pb";
 import { smoothed } from "../transfer/drawn_map";
 import { axisOf } from "../transfer/scale";
-import { scaled, type TransferFunction } from "../transfer/transfer_function";
+import { scaled, type TransferFunction, withoutIdlePoints } from "../transfer/transfer_function";
 import { type Bounds, type Orbit, orbitFrom, poseFrom } from "../view/camera";
 import type { Vec3 } from "../view/vec3";
 import type { MapEdit, Maps } from "./app_state";
@@ -59,7 +59,8 @@ export function mapOf(message: TransferFunctionMessage | undefined): TransferFun
 export function drawnFrom(edit: MapEdit, scale: Scale | undefined): TransferFunction {
   const { map, density, smooth } = edit;
   const axis = axisOf(scale, map[0]?.value ?? 0, map[map.length - 1]?.value ?? 0);
-  return scaled(smooth ? smoothed(map, smooth, axis) : map, density);
+  const shown = smooth ? smoothed(map, smooth, axis) : withoutIdlePoints(map, axis.along);
+  return scaled(shown, density);
 }
 
 const drawnMessage = (

@@ -4,6 +4,8 @@ import { type Colour, fromHex, mixColour } from "./srgb";
 export interface ColourMap {
   readonly id: string;
   readonly name: string;
+  /** Who made it, and under which licence. */
+  readonly source: string;
   readonly stops: readonly Colour[];
 }
 
@@ -36,24 +38,60 @@ function coolWarm(t: number): Colour {
   return fromOklab(0.92 - 0.4 * side, chroma * Math.cos(hue), chroma * Math.sin(hue));
 }
 
-/** Viridis and inferno: S. van der Walt and N. Smith, 2015, released under CC0; nine of 256. */
+/** A straight line in OKLab: equal steps of value are equal steps to the eye, for the colour-blind too. */
+function blueYellow(t: number): Colour {
+  const chroma = 0.13 * (2 * t - 1);
+  return fromOklab(0.3 + 0.62 * t, -0.1 * chroma, chroma);
+}
+
+/** Nine of 256 colours each: R's and matplotlib's tables, which their authors gave away. */
+const kVanDerWalt = "S. van der Walt and N. Smith, 2015; CC0";
+/** Computed here. */
+const kOwn = "Volcast, from OKLab (B. Ottosson, 2020, public domain); AGPL";
+
 export const kViridis: ColourMap = {
   id: "viridis",
   name: "Viridis",
+  source: kVanDerWalt,
   stops: table("#440154 #472d7b #3b528b #2c728e #21918c #28ae80 #5ec962 #addc30 #fde725"),
+};
+
+const kPlasma: ColourMap = {
+  id: "plasma",
+  name: "Plasma",
+  source: kVanDerWalt,
+  stops: table("#0d0887 #4c02a1 #7e03a8 #a92395 #cc4778 #e56b5d #f89540 #fdc527 #f0f921"),
 };
 
 const kInferno: ColourMap = {
   id: "inferno",
   name: "Inferno",
+  source: kVanDerWalt,
   stops: table("#000004 #210c4a #57106e #8a226a #bc3754 #e45a31 #f98e09 #f9cb35 #fcffa4"),
 };
 
+const kMagma: ColourMap = {
+  id: "magma",
+  name: "Magma",
+  source: kVanDerWalt,
+  stops: table("#000004 #1d1147 #51127c #832681 #b73779 #e75263 #fc8961 #fec488 #fcfdbf"),
+};
+
+const own = (id: string, name: string, colourAt: (t: number) => Colour): ColourMap => ({
+  id,
+  name,
+  source: kOwn,
+  stops: steps(colourAt),
+});
+
 export const kColourMaps: readonly ColourMap[] = [
   kViridis,
+  kPlasma,
   kInferno,
-  { id: "cool-warm", name: "Cool to warm", stops: steps(coolWarm) },
-  { id: "grey", name: "Grey", stops: steps((t) => fromOklab(0.1 + 0.9 * t, 0, 0)) },
+  kMagma,
+  own("blue-yellow", "Blue to yellow", blueYellow),
+  own("cool-warm", "Cool to warm", coolWarm),
+  own("grey", "Grey", (t) => fromOklab(0.1 + 0.9 * t, 0, 0)),
 ];
 
 /** The map's colour at t in [0, 1]. */

@@ -6,8 +6,10 @@ import {
   type TransferFunction,
   withColour,
   withMovedPoint,
+  withoutIdlePoints,
   withoutPoint,
   withPointAt,
+  withReversedColours,
 } from "./transfer_function";
 
 const black = { r: 0, g: 0, b: 0 };
@@ -91,5 +93,66 @@ describe("transfer function", () => {
     const map = [...ramp].map((p, i) => ({ ...p, value: [1, 100][i] ?? 0 }));
     const middle = withPointAt(map, 10, axis.along).map;
     expect(stretched(middle, 1, 1e4, axis)[1]?.value).toBeCloseTo(100, 9);
+  });
+});
+
+describe("points that change nothing", () => {
+  const bent: TransferFunction = [
+    { value: -3, colour: black, extinction: 0.1 },
+    { value: 1, colour: { r: 0.3, g: 0.7, b: 0.1 }, extinction: 2.7 },
+    { value: 1, colour: { r: 0.4, g: 0.7, b: 0.1 }, extinction: 2.7 },
+    { value: 7.1, colour: white, extinction: 0 },
+  ];
+
+  it("leave what is drawn as it is to the last bit, however many there are", () => {
+    const drawn = withoutIdlePoints(bent);
+    expect(drawn).toEqual(bent);
+    let map = bent;
+    for (let i = 0; i < 200; i += 1) map = withPointAt(map, -3 + 10.1 * ((i * 0.618) % 1)).map;
+    expect(map.length).toBeGreaterThan(190);
+    expect(withoutIdlePoints(map)).toEqual(drawn);
+  });
+
+  it("are found on logarithmic axes, too", () => {
+    const axis = { along: Math.log, back: Math.exp, low: 1e-3, high: 1e3 };
+    const map = withPointAt(
+      [
+        { value: 1e-3, colour: black, extinction: 0 },
+        { value: 1e3, colour: white, extinction: 5 },
+      ],
+      0.37,
+      axis.along,
+    ).map;
+    expect(withoutIdlePoints(map, axis.along)).toHaveLength(2);
+    expect(withoutIdlePoints(map)).toHaveLength(3);
+  });
+
+  it("are not those that were moved by little", () => {
+    const { map, index } = withPointAt(ramp, 3);
+    const point = map[index];
+    const moved = withMovedPoint(map, index, 3, (point?.extinction ?? 0) * (1 + 1e-6));
+    expect(withoutIdlePoints(moved)).toHaveLength(3);
+  });
+});
+
+describe("reversed colours", () => {
+  const map: TransferFunction = [
+    { value: 0, colour: black, extinction: 1 },
+    { value: 2, colour: { r: 1, g: 0, b: 0 }, extinction: 5 },
+    { value: 10, colour: white, extinction: 2 },
+  ];
+
+  it("run from the last to the first, and opacity stays", () => {
+    const turned = withReversedColours(map);
+    for (const value of [0, 1, 2, 5, 8, 9, 10]) {
+      expect(sampleAt(turned, value).extinction).toBeCloseTo(sampleAt(map, value).extinction, 12);
+      const [a, b] = [sampleAt(turned, value).colour, sampleAt(map, 10 - value).colour];
+      for (const k of ["r", "g", "b"] as const) expect(a[k]).toBeCloseTo(b[k], 12);
+    }
+  });
+
+  it("are as before when they are reversed twice", () => {
+    const twice = withReversedColours(withReversedColours(map));
+    expect(twice.map((p) => p.value)).toEqual([0, 2, 10]);
   });
 });

@@ -107,3 +107,55 @@ export function stretched(
   });
   return first > last ? next.reverse() : next;
 }
+
+/** Of a point on the line between its neighbours; rounding in double precision is no corner. */
+const kOnLine = 1e-9;
+
+function isOnLine(before: Point, point: Point, after: Point, along: Along): boolean {
+  const span = along(after.value) - along(before.value);
+  const t = span > 0 ? (along(point.value) - along(before.value)) / span : 0;
+  const parts = ({ colour: { r, g, b }, extinction }: Point) => [r, g, b, extinction];
+  const [from, to] = [parts(before), parts(after)];
+  return parts(point).every((x, k) => {
+    const [a, b] = [from[k] ?? 0, to[k] ?? 0];
+    return Math.abs(x - (a + t * (b - a))) <= kOnLine * Math.max(Math.abs(a), Math.abs(b));
+  });
+}
+
+/**
+ * Without points that change nothing. What is drawn is made of the others alone, so a point that
+ * is added and not moved yet leaves the picture as it is, to the last bit.
+ */
+export function withoutIdlePoints(
+  map: TransferFunction,
+  along: Along = kStraight.along,
+): TransferFunction {
+  const kept: Point[] = [];
+  map.forEach((point, i) => {
+    const before = kept[kept.length - 1];
+    const after = map[i + 1];
+    if (!before || !after || !isOnLine(before, point, after, along)) kept.push(point);
+  });
+  return kept;
+}
+
+/** Colours from the last value to the first; extinction stays where it is. */
+export function withReversedColours(
+  map: TransferFunction,
+  { along, back }: Axis = kStraight,
+): TransferFunction {
+  const first = map[0]?.value ?? 0;
+  const last = map[map.length - 1]?.value ?? 0;
+  const mirrored = (value: number): number => {
+    if (value === first || value === last) return value === first ? last : first;
+    return back(along(first) + along(last) - along(value));
+  };
+  const values = [...map.map((p) => p.value), ...map.map((p) => mirrored(p.value))];
+  const ascending = [...new Set(values)].sort((a, b) => a - b);
+  const turned = ascending.map((value) => ({
+    value,
+    colour: sampleAt(map, mirrored(value), along).colour,
+    extinction: sampleAt(map, value, along).extinction,
+  }));
+  return withoutIdlePoints(turned, along);
+}

@@ -43,6 +43,8 @@ interface ViewProps {
   readonly port: AppPort;
 }
 
+const DropZone = lazy(async () => (await import("./drop_zone")).DropZone);
+
 const Hud = lazy(async () => (await import("./hud")).Hud);
 
 const ShareDialog = lazy(async () => (await import("./share_dialog")).ShareDialog);
@@ -219,6 +221,7 @@ export function App({ panes, portOf, helpOpen, shareOpen }: Props) {
         </div>
       </aside>
       <Help open={helpOpen} />
+      <DropZone state={state} port={port} />
       {shareOpen.value && <ShareDialog key={key} state={state} port={port} open={shareOpen} />}
     </div>
   );

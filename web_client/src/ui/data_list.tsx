@@ -1,9 +1,14 @@
+import { useSignal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 import { type DatasetInfo, DatasetKind, DatasetState } from "../net/gen/volcast/v1/session_pb";
 import type { AppState } from "../state/app_state";
 import { formatBytes, formatCount } from "./format";
 import { Icon } from "./icons";
+import { lazy } from "./lazy";
 import type { AppPort } from "./port";
+import { UploadPanel } from "./upload_panel";
+
+const DataDetails = lazy(async () => (await import("./data_details")).DataDetails);
 
 function describe(info: DatasetInfo): string {
   const size = info.bytes > 0n ? formatBytes(Number(info.bytes)) : "";
@@ -29,6 +34,58 @@ function Progress({ info }: { readonly info: DatasetInfo }) {
   );
 }
 
+/** A small picture of the data; asked of the server once the row is in sight. */
+function Thumbnail({ info, port }: { readonly info: DatasetInfo; readonly port: AppPort }) {
+  const place = useRef<HTMLSpanElement>(null);
+  const address = useSignal("");
+  const { id, version, state, thumbnail } = info;
+  const isReady = state === DatasetState.READY;
+  useEffect(() => {
+    if (thumbnail.length === 0) {
+      address.value = "";
+      return undefined;
+    }
+    const jpeg = new Blob([thumbnail as Uint8Array<ArrayBuffer>], { type: "image/jpeg" });
+    address.value = URL.createObjectURL(jpeg);
+    return () => URL.revokeObjectURL(address.value);
+  }, [thumbnail]);
+  useEffect(() => {
+    if (!place.current || !isReady || thumbnail.length > 0) return undefined;
+    const observer = new IntersectionObserver(([entry]) => {
+      if (!entry?.isIntersecting) return;
+      port.drawDatasetThumbnail(id);
+      observer.disconnect();
+    });
+    observer.observe(place.current);
+    return () => observer.disconnect();
+  }, [id, version, isReady, thumbnail.length > 0]);
+  return (
+    <span ref={place} class="thumbnail">
+      {address.value && <img src={address.value} alt="" width={64} height={48} />}
+    </span>
+  );
+}
+
+/** Statistics and the import's log, fetched when they are opened. */
+function Details({ info }: { readonly info: DatasetInfo }) {
+  const open = useSignal(false);
+  const remarks = info.warnings.length;
+  return (
+    <details
+      class="dataset-more"
+      onToggle={(e) => {
+        open.value = e.currentTarget.open;
+      }}
+    >
+      <summary>
+        Details<span class="unseen"> of {info.name || info.id}</span>
+        {remarks > 0 && ` and ${remarks === 1 ? "1 remark" : `${remarks} remarks`}`}
+      </summary>
+      {open.value && <DataDetails info={info} />}
+    </details>
+  );
+}
+
 interface RowProps {
   readonly info: DatasetInfo;
   readonly shown: boolean;
@@ -48,8 +105,11 @@ function Row({ info, shown, pending, port }: RowProps) {
   return (
     <li ref={row} class="dataset" data-shown={shown ? "" : undefined} data-dataset={info.id}>
       <button type="button" class="dataset-choose" aria-pressed={shown} onClick={choose}>
-        <span class="dataset-name">{info.name || info.id}</span>
-        {note && <span class="dataset-note">{note}</span>}
+        <Thumbnail info={info} port={port} />
+        <span class="dataset-text">
+          <span class="dataset-name">{info.name || info.id}</span>
+          {note && <span class="dataset-note">{note}</span>}
+        </span>
       </button>
       {info.state === DatasetState.IMPORTING && <Progress info={info} />}
       {failed && (
@@ -60,18 +120,7 @@ function Row({ info, shown, pending, port }: RowProps) {
           </button>
         </p>
       )}
-      {info.warnings.length > 0 && (
-        <details class="dataset-warnings">
-          <summary>
-            {info.warnings.length === 1 ? "1 remark" : `${info.warnings.length} remarks`}
-          </summary>
-          <ul>
-            {info.warnings.map((warning) => (
-              <li key={warning}>{warning}</li>
-            ))}
-          </ul>
-        </details>
-      )}
+      {info.state === DatasetState.READY && <Details info={info} />}
     </li>
   );
 }
@@ -102,6 +151,7 @@ export function DataList({ state, port }: { readonly state: AppState; readonly p
           />
         ))}
       </ul>
+      <UploadPanel state={state} port={port} />
     </section>
   );
 }

@@ -17,6 +17,7 @@ const kRows: readonly (readonly [keys: string, what: string])[] = [
   ["C", "Save the picture, lossless"],
   ["F", "Full screen"],
   ["Ctrl Z, Ctrl Shift Z", "Undo and redo any setting"],
+  ["I, or a tap", "Keep the values under the pointer (or in the middle), to copy them"],
   ["?", "This help"],
 ];
 
@@ -27,9 +28,15 @@ const kClipRows: readonly (readonly [keys: string, what: string])[] = [
 ];
 
 const kMapRows: readonly (readonly [keys: string, what: string])[] = [
-  ["Double click", "Add a point, or delete the one under it"],
+  [
+    "Click, tap",
+    "Add a point that changes nothing yet; with Shift, Ctrl or Alt in the selected colour",
+  ],
   ["Drag, arrows", "Move a point; with Shift in small steps"],
-  ["Delete, middle click", "Delete the point"],
+  ["Double click, Delete, middle click", "Delete the point"],
+  ["Right click, long press", "Another colour for the point"],
+  ["Shift, Ctrl or Alt click on a point", "Give it the selected colour"],
+  ["Ctrl wheel, pinch", "Closer; Shift wheel or a drag of the ground moves"],
 ];
 
 function Keys({ rows }: { readonly rows: typeof kRows }) {

@@ -19,17 +19,21 @@ import {
 import { type Slot, usesColours, usesExtinction } from "../state/models";
 import { opacityFromExtinction } from "../transfer/opacity";
 import type { Axis } from "../transfer/scale";
-import { type TransferFunction, withPointAt } from "../transfer/transfer_function";
+import { type TransferFunction, withColour, withPointAt } from "../transfer/transfer_function";
 import { ScaleOptions } from "./field_picker";
 import { formatNumber, formatValue } from "./format";
 import { IconButton } from "./icons";
 import { Check } from "./inputs";
+import { lazy } from "./lazy";
 import { MapInputs } from "./map_inputs";
 import { kBarGap, kPlotHeight, type PlotBox, type PlotContent, rangeOf, valueAt } from "./map_plot";
 import { MapPoints } from "./map_points";
 import { ColourPresets, DensitySlider, OpacityPresets, SmoothCurve } from "./map_presets";
 import { MapRange } from "./map_range";
+import { boxWithin, kWhole, panned, type Zoom, zoomed } from "./map_zoom";
 import { PlotCanvas } from "./plot_canvas";
+
+const MapFiles = lazy(async () => (await import("./map_files")).MapFiles);
 
 interface Props {
   readonly state: AppState;
@@ -51,42 +55,90 @@ function Hint({ state, slot }: Props) {
 }
 
 /** The box that a map is drawn in: reads signals. */
-function boxOf(state: AppState, slot: Slot, width: number): PlotBox {
+function boxOf(state: AppState, slot: Slot, zoom: Zoom, width: number): PlotBox {
   const field = fieldOf(state, slot);
   const { map } = mapEditOf(state, slot);
   const axis = axisOfSlot(state, slot);
   const usual = field && usualRangeOf(field);
   const low = usual?.min ?? map[0]?.value ?? 0;
   const high = usual?.max ?? map[map.length - 1]?.value ?? 1;
-  return { width, axis, ...rangeOf(map, low, high, axis) };
+  return boxWithin({ width, axis, ...rangeOf(map, low, high, axis) }, zoom);
 }
 
 type Selection = Readonly<Record<MapTarget["part"], Signal<number>>>;
 
-interface EditorProps extends Props {
-  readonly selected: Selection;
+/** What of the editor is shown how; it is no part of the map. */
+interface Look {
+  readonly zoom: Signal<Zoom>;
+  readonly logCounts: Signal<boolean>;
 }
 
-/** Adds a point with the map's own value, and selects it. */
+interface EditorProps extends Props {
+  readonly selected: Selection;
+  readonly look: Look;
+}
+
+/** Adds a point with the map's own value, or in the colour of the selected one, and selects it. */
 function addPoint(
   { state, slot, selected }: EditorProps,
   part: MapTarget["part"],
   value: number,
+  inSelectedColour = false,
 ): void {
   const { along } = axisOfSlot(state, slot);
-  const next = withPointAt(pointsOf(state, slot, part), value, along);
-  changePoints(state, slot, part, next.map);
-  selected[part].value = next.index;
+  const points = pointsOf(state, slot, part);
+  const { map, index } = withPointAt(points, value, along);
+  const colour = inSelectedColour ? points[selected[part].value]?.colour : undefined;
+  changePoints(state, slot, part, colour ? withColour(map, index, colour) : map);
+  selected[part].value = index;
+}
+
+/** How the plot is looked at: bars by their logarithm, a part of the range. */
+function PlotLook({ zoom, logCounts }: Look) {
+  const isWhole = zoom.value.from === 0 && zoom.value.to === 1;
+  const by = (factor: number) => () => {
+    zoom.value = zoomed(zoom.value, factor, 0.5);
+  };
+  return (
+    <div class="map-look">
+      <Check
+        checked={logCounts.value}
+        take={(on) => {
+          logCounts.value = on;
+        }}
+      >
+        Logarithmic counts
+      </Check>
+      <IconButton
+        icon="minus"
+        label="Show more of the range"
+        disabled={isWhole}
+        onClick={by(0.5)}
+      />
+      <IconButton icon="add" label="Show less of the range" onClick={by(2)} />
+      <button
+        type="button"
+        class="text-button"
+        disabled={isWhole}
+        onClick={() => {
+          zoom.value = kWhole;
+        }}
+      >
+        All
+      </button>
+    </div>
+  );
 }
 
 function Plot(props: EditorProps) {
-  const { state, slot, selected } = props;
+  const { state, slot, selected, look } = props;
   const field = fieldOf(state, slot);
   const targets = targetsOf(state, slot);
-  const ends = boxOf(state, slot, 0);
+  const { zoom } = look;
+  const ends = boxOf(state, slot, zoom.value, 0);
   const content = (width: number): PlotContent => {
     const now = fieldOf(state, slot);
-    const box = boxOf(state, slot, width);
+    const box = boxOf(state, slot, zoom.value, width);
     const length = state.referenceLength.value;
     return {
       box,
@@ -94,26 +146,38 @@ function Plot(props: EditorProps) {
       opacityOf: (extinction) => opacityFromExtinction(extinction, length),
       histogram: now?.histogram ?? [],
       histogramRange: now ? usualRangeOf(now) : { min: box.low, max: box.high },
+      logCounts: look.logCounts.value,
       showsOpacity: usesExtinction(state.layer.value, slot),
       showsColours: usesColours(state.layer.value, slot),
     };
   };
   // Apart, a click beside the curve is about opacity, one on the bar about colour.
-  const add = (x: number, y: number, width: number): void => {
+  const add = (x: number, y: number, width: number, modified: boolean): void => {
     const onBar = y > kPlotHeight + kBarGap / 2;
     const target = targets.find((t) => t.part === (onBar ? "colours" : "opacities")) ?? targets[0];
-    if (target) addPoint(props, target.part, valueAt(boxOf(state, slot, width), x));
+    if (!target) return;
+    const value = valueAt(boxOf(state, slot, zoom.value, width), x);
+    addPoint(props, target.part, value, modified && target.showsColours);
   };
   return (
     <div class="map-plot">
-      <PlotCanvas content={content} add={add}>
+      <PlotCanvas
+        content={content}
+        add={add}
+        zoom={(factor, at) => {
+          zoom.value = zoomed(zoom.value, factor, at);
+        }}
+        pan={(by) => {
+          zoom.value = panned(zoom.value, by);
+        }}
+      >
         {(width) =>
           targets.map((target) => (
             <MapPoints
               key={target.part}
               state={state}
               slot={slot}
-              box={boxOf(state, slot, width)}
+              box={boxOf(state, slot, zoom.value, width)}
               target={target}
               selected={selected[target.part]}
             />
@@ -125,6 +189,7 @@ function Plot(props: EditorProps) {
         <span>{field?.unit ?? ""}</span>
         <span>{formatValue(ends.high, ends.high - ends.low)}</span>
       </div>
+      <PlotLook {...look} />
     </div>
   );
 }
@@ -176,6 +241,7 @@ function Tools(props: EditorProps) {
 /** Colours and extinction over a field's histogram, one map for both. */
 export function MapEditor({ state, slot }: Props) {
   const selected = { map: useSignal(0), colours: useSignal(0), opacities: useSignal(0) };
+  const look = { zoom: useSignal(kWhole), logCounts: useSignal(true) };
   const layer = state.layer.value;
   if (!layer || mapEditOf(state, slot).map.length === 0) return null;
   if (layer.channels.length > 0) return null; // Each has a map of its own.
@@ -188,14 +254,14 @@ export function MapEditor({ state, slot }: Props) {
     <section class="section" aria-labelledby={id}>
       <div class="section-head">
         <h2 id={id}>{`${headingOf(showsColours, showsOpacity)}${of}`}</h2>
-        <Tools state={state} slot={slot} selected={selected} />
+        <Tools state={state} slot={slot} selected={selected} look={look} />
       </div>
       {slot === "second" && (
         <div class="options">
           <ScaleOptions state={state} slot="second" />
         </div>
       )}
-      <Plot state={state} slot={slot} selected={selected} />
+      <Plot state={state} slot={slot} selected={selected} look={look} />
       {targetsOf(state, slot).map((target) => (
         <MapInputs
           key={target.part}
@@ -218,6 +284,7 @@ export function MapEditor({ state, slot }: Props) {
       {showsOpacity && <OpacityPresets state={state} slot={slot} />}
       {showsOpacity && <SmoothCurve state={state} slot={slot} />}
       {showsOpacity && <DensitySlider state={state} slot={slot} />}
+      <MapFiles state={state} slot={slot} />
       <Hint state={state} slot={slot} />
     </section>
   );

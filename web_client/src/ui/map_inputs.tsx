@@ -9,7 +9,7 @@ import { isEnd, withColour, withMovedPoint } from "../transfer/transfer_function
 import { formatNumber, formatValue } from "./format";
 import { IconButton } from "./icons";
 import { NumberField } from "./inputs";
-import { deletePoint, extinctionFor } from "./map_points";
+import { colourId, deletePoint, extinctionFor } from "./map_points";
 
 interface Props {
   readonly state: AppState;
@@ -40,6 +40,7 @@ export function MapInputs({ state, slot, target, selected }: Props) {
           <span>Colour</span>
           <input
             type="color"
+            id={colourId(slot, part)}
             value={toHex(point.colour)}
             onInput={(e) => {
               const colour = fromHex(e.currentTarget.value);

@@ -51,10 +51,11 @@ export function rangeOf(
   return high > low ? { low, high } : { low: low - 0.5, high: high + 0.5 };
 }
 
-/** Heights in [0, 1] of the histogram's bars; counts differ by powers, so by their logarithm. */
-export function barHeights(counts: readonly number[]): number[] {
-  const most = Math.log1p(Math.max(0, ...counts));
-  return counts.map((count) => (most > 0 ? Math.log1p(count) / most : 0));
+/** Heights in [0, 1] of the histogram's bars; counts differ by powers, so usually by logarithm. */
+export function barHeights(counts: readonly number[], log = true): number[] {
+  const sizes = log ? counts.map(Math.log1p) : counts;
+  const most = Math.max(0, ...sizes);
+  return sizes.map((size) => (most > 0 ? size / most : 0));
 }
 
 export interface PlotContent {
@@ -65,6 +66,8 @@ export interface PlotContent {
   readonly opacityOf: (extinction: number) => number;
   readonly histogram: readonly number[];
   readonly histogramRange: { readonly min: number; readonly max: number };
+  /** Bars by the logarithm of their counts; where absent, too. */
+  readonly logCounts?: boolean;
   readonly showsOpacity: boolean;
   readonly showsColours: boolean;
 }
@@ -91,10 +94,10 @@ function drawHistogram(context: CanvasRenderingContext2D, content: PlotContent, 
   if (!(bin > 0)) return;
   context.fillStyle = ink;
   context.beginPath(); // One shape: bars that meet leave no seam.
-  barHeights(histogram).forEach((height, i) => {
+  barHeights(histogram, content.logCounts).forEach((height, i) => {
     const left = xOf(box, min + i * bin);
     const right = xOf(box, min + (i + 1) * bin);
-    if (right < kPadX) return; // Below what the scale can show.
+    if (right < kPadX || left > box.width - kPadX) return; // Beyond what is shown.
     const top = yOf(0.92 * height);
     context.rect(left, top, right - left, kPlotHeight - top);
   });
@@ -130,7 +133,8 @@ function drawCurve(context: CanvasRenderingContext2D, content: PlotContent, ink:
   context.beginPath();
   const lineTo = (x: number, extinction: number): void =>
     context.lineTo(x, yOf(opacityOf(extinction)));
-  lineTo(kPadX, sampleAt(map, box.low).extinction);
+  const first = xOf(box, map[0]?.value ?? box.low);
+  if (first > kPadX) lineTo(kPadX, map[0]?.extinction ?? 0);
   map.forEach((point, i) => {
     const before = map[i - 1];
     const x = xOf(box, point.value);
@@ -141,7 +145,10 @@ function drawCurve(context: CanvasRenderingContext2D, content: PlotContent, ink:
     }
     lineTo(x, point.extinction);
   });
-  lineTo(box.width - kPadX, sampleAt(map, box.high).extinction);
+  lineTo(
+    Math.max(box.width - kPadX, xOf(box, map[map.length - 1]?.value ?? box.high)),
+    map[map.length - 1]?.extinction ?? 0,
+  );
   context.stroke();
 }
 
@@ -161,6 +168,9 @@ export function drawPlot(canvas: HTMLCanvasElement, content: PlotContent, scale:
   };
   context.setTransform(scale, 0, 0, scale, 0, 0);
   drawGrid(context, content, inks.grid);
+  context.beginPath();
+  context.rect(kPadX, 0, content.box.width - 2 * kPadX, height);
+  context.clip();
   drawHistogram(context, content, inks.bars);
   drawMap(context, content, scale, inks.grey);
   if (content.showsOpacity) drawCurve(context, content, inks.curve);

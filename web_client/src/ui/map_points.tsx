@@ -13,6 +13,7 @@ import {
   isEnd,
   type Point,
   sampleAt,
+  withColour,
   withMovedPoint,
   withoutPoint,
 } from "../transfer/transfer_function";
@@ -54,6 +55,23 @@ export function deletePoint(
   selected.value = Math.max(0, index - 1);
 }
 
+/** The id of the field for the selected point's colour. */
+export const colourId = (slot: Slot, part: MapTarget["part"]): string => `colour-${slot}-${part}`;
+
+/** Opens the browser's picker of a colour field, once the field is about the point selected now. */
+export function openColour(id: string): void {
+  requestAnimationFrame(() => {
+    const field = document.getElementById(id);
+    if (!(field instanceof HTMLInputElement)) return;
+    field.focus();
+    try {
+      field.showPicker();
+    } catch {
+      // A browser without it, or one that wants another click: the field has the focus.
+    }
+  });
+}
+
 /** The points of a map, or of a part of it. */
 export function MapPoints({ state, slot, box, target, selected }: Props) {
   const { part, name, points, showsColours, showsOpacity } = target;
@@ -82,6 +100,16 @@ export function MapPoints({ state, slot, box, target, selected }: Props) {
         changePoints(state, slot, part, next, gesture);
       }}
       remove={(index) => deletePoint(state, slot, part, selected, index)}
+      recolour={showsColours ? () => openColour(colourId(slot, part)) : undefined}
+      paint={
+        showsColours
+          ? (index) => {
+              const present = pointsOf(state, slot, part);
+              const colour = present[selected.value]?.colour;
+              if (colour) changePoints(state, slot, part, withColour(present, index, colour));
+            }
+          : undefined
+      }
       done={() => endGesture(state)}
     />
   );

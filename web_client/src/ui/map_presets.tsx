@@ -1,9 +1,17 @@
-import { changeDensity, changeMap, changeSmooth, endGesture, mapEditOf } from "../state/actions";
+import {
+  axisOfSlot,
+  changeDensity,
+  changeMap,
+  changeSmooth,
+  endGesture,
+  mapEditOf,
+} from "../state/actions";
 import type { AppState } from "../state/app_state";
 import type { Slot } from "../state/models";
 import { type ColourMap, kColourMaps } from "../transfer/colour_maps";
 import { kOpacityShapes, withColourMap, withOpacityShape } from "../transfer/presets";
 import { toHex } from "../transfer/srgb";
+import { withReversedColours } from "../transfer/transfer_function";
 import { formatNumber } from "./format";
 import { Check } from "./inputs";
 
@@ -25,7 +33,7 @@ export function ColourPresets({ state, slot }: Props) {
           key={colours.id}
           type="button"
           class="swatch"
-          title={colours.name}
+          title={`${colours.name} (${colours.source})`}
           aria-label={`${colours.name} colours`}
           style={{ backgroundImage: gradient(colours) }}
           onClick={() => {
@@ -34,6 +42,27 @@ export function ColourPresets({ state, slot }: Props) {
           }}
         />
       ))}
+      <button
+        type="button"
+        class="text-button"
+        onClick={() => {
+          const { map } = mapEditOf(state, slot);
+          const turned = withReversedColours(map, axisOfSlot(state, slot));
+          changeMap(state, turned, undefined, slot);
+        }}
+      >
+        Reverse
+      </button>
+      <details class="advanced sources">
+        <summary>Sources and licences</summary>
+        <ul>
+          {kColourMaps.map(({ id, name, source }) => (
+            <li key={id}>
+              {name}: {source}
+            </li>
+          ))}
+        </ul>
+      </details>
     </fieldset>
   );
 }

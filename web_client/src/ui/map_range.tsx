@@ -61,6 +61,14 @@ export function MapRange({ state, slot }: Props) {
       >
         Auto range
       </button>
+      <button
+        type="button"
+        class="text-button whole-range"
+        disabled={!field || field.min === field.max}
+        onClick={() => field && changeRange(state, field.min, field.max, slot)}
+      >
+        Whole range
+      </button>
     </fieldset>
   );
 }

@@ -21,15 +21,15 @@ interface BarProps {
 
 const kStops = 32;
 
-/** The colours along a field's axis, as a browser paints them. */
-function gradientOf(map: TransferFunction, axis: Axis, low: number, high: number): string {
+/** The colours along a field's axis, as a browser paints them; the style says which way they run. */
+function coloursOf(map: TransferFunction, axis: Axis, low: number, high: number): string {
   const from = axis.along(low);
   const span = axis.along(high) - from;
   const colours = Array.from({ length: kStops + 1 }, (_, i) => {
     const value = axis.back(from + (span * i) / kStops);
     return toHex(sampleAt(map, value, axis.along).colour);
   });
-  return `linear-gradient(to top, ${colours.join(", ")})`;
+  return colours.join(", ");
 }
 
 function Bar({ field, map, axis }: BarProps) {
@@ -42,9 +42,9 @@ function Bar({ field, map, axis }: BarProps) {
         {field.name}
         {field.unit && <span class="legend-unit"> {field.unit}</span>}
       </figcaption>
-      <div class="legend-bar" style={{ backgroundImage: gradientOf(map, axis, low, high) }}>
+      <div class="legend-bar" style={{ "--colours": coloursOf(map, axis, low, high) }}>
         {legendTicks(axis, low, high).map(({ value, place }) => (
-          <span key={value} class="legend-tick" style={{ bottom: `${100 * place}%` }}>
+          <span key={value} class="legend-tick" style={{ "--place": `${100 * place}%` }}>
             {text(value)}
           </span>
         ))}

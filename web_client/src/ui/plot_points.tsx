@@ -12,6 +12,7 @@ import {
   xOf,
   yOf,
 } from "./map_plot";
+import { isModified } from "./plot_canvas";
 
 /** A point of a map as it is drawn. */
 export interface PlotPoint {
@@ -43,6 +44,10 @@ interface Props<P extends PlotPoint> {
     gesture: string,
   ) => void;
   readonly remove: (index: number) => void;
+  /** Asks for another colour of a point; absent where points have none. */
+  readonly recolour?: ((index: number) => void) | undefined;
+  /** Gives a point the colour of the selected one. */
+  readonly paint?: ((index: number) => void) | undefined;
   readonly done: () => void;
 }
 
@@ -55,6 +60,8 @@ interface Drag<P> {
 }
 
 let lastDrag = 0;
+/** Longer than any system's double click. */
+const kDoubleMs = 1000;
 
 const kArrows: Readonly<Record<string, readonly [number, number]>> = {
   ArrowLeft: [-1, 0],
@@ -66,6 +73,9 @@ const kArrows: Readonly<Record<string, readonly [number, number]>> = {
 /** A map's points: buttons that are dragged, or moved with the keyboard. */
 export function PlotPoints<P extends PlotPoint>(props: Props<P>) {
   const { box, points, name, id, selected, showsOpacity, isFixed, move, remove, done } = props;
+  const { recolour, paint } = props;
+  /** The latest presses: a double click is two on one point, not one on the ground it was added to. */
+  const presses = useRef<readonly { readonly index: number; readonly at: number }[]>([]);
   const drag = useRef<Drag<P> | undefined>(undefined);
   /** Whether the drag has left its start. */
   const moving = useRef(false);
@@ -96,7 +106,11 @@ export function PlotPoints<P extends PlotPoint>(props: Props<P>) {
 
   const pressed = (index: number, event: PointerEvent): void => {
     const start = points[index];
-    if (event.button === 1) {
+    presses.current = [...presses.current.slice(-1), { index, at: event.timeStamp }];
+    if (event.button === 0 && paint && isModified(event)) {
+      event.preventDefault();
+      paint(index);
+    } else if (event.button === 1) {
       event.preventDefault();
       remove(index);
     } else if (event.button === 0 && start) {
@@ -126,6 +140,17 @@ export function PlotPoints<P extends PlotPoint>(props: Props<P>) {
     done();
   };
 
+  const wasDouble = (index: number): boolean => {
+    const [first, second] = presses.current;
+    return first?.index === index && second?.index === index && second.at - first.at < kDoubleMs;
+  };
+
+  /** One that is being dragged stays, even at the edge. */
+  const isShown = (index: number, { value }: PlotPoint): boolean => {
+    const x = xOf(box, value);
+    return drag.current?.index === index || (x > kPadX - 1 && x < box.width - kPadX + 1);
+  };
+
   const barMiddle = kPlotHeight + kBarGap + kBarHeight / 2;
   return (
     <div class="map-points">
@@ -142,6 +167,7 @@ export function PlotPoints<P extends PlotPoint>(props: Props<P>) {
             data-end={isFixed(index) ? "" : undefined}
             aria-label={`${name} ${index + 1} of ${points.length}: value ${value}${showsOpacity ? opacity : ""}`}
             aria-pressed={index === selected.value}
+            hidden={!isShown(index, point)}
             style={{ left: xOf(box, point.value), top, "--point": point.colour }}
             onFocus={() => {
               selected.value = index;
@@ -149,12 +175,21 @@ export function PlotPoints<P extends PlotPoint>(props: Props<P>) {
             onKeyDown={(e) => keyDown(index, e)}
             onKeyUp={done}
             onPointerDown={(e) => pressed(index, e)}
+            onMouseDown={(e) => {
+              if (paint && isModified(e)) e.preventDefault(); // The selected one stays so.
+            }}
             onPointerMove={moved}
             onPointerUp={released}
             onPointerCancel={released}
+            onContextMenu={(e) => {
+              if (!recolour) return;
+              e.preventDefault();
+              selected.value = index;
+              recolour(index);
+            }}
             onDblClick={(e) => {
               e.stopPropagation();
-              remove(index);
+              if (wasDouble(index)) remove(index);
             }}
           />
         );

@@ -33,6 +33,9 @@ export interface ViewPort {
 /** What the panels ask of the page. */
 export interface PagePort {
   importAgain(id: string): void;
+  drawDatasetThumbnail(id: string): void;
+  /** `folder`: that the files were in. */
+  upload(files: readonly File[], folder: string | undefined): void;
   reconnect(): void;
   toggle(option: ViewOption): void;
   toggleFullscreen(): void;

@@ -22,6 +22,7 @@ import { formatNumber, formatValue } from "./format";
 import { IconButton } from "./icons";
 import { NumberField } from "./inputs";
 import { type PlotBox, type PlotContent, valueAt } from "./map_plot";
+import { openColour } from "./map_points";
 import { PlotCanvas } from "./plot_canvas";
 import { PlotPoints } from "./plot_points";
 
@@ -42,11 +43,13 @@ const boxOf = ({ window }: ControlMap, width: number): PlotBox => ({
 function PointFields({
   map,
   index,
+  colourId,
   change,
   done,
 }: {
   readonly map: ControlMap;
   readonly index: number;
+  readonly colourId: string;
   readonly change: (map: ControlMap, gesture?: string) => void;
   readonly done: () => void;
 }) {
@@ -62,6 +65,7 @@ function PointFields({
         <span>Colour</span>
         <input
           type="color"
+          id={colourId}
           value={toHex(point.colour)}
           onInput={(e) => {
             const colour = fromHex(e.currentTarget.value);
@@ -126,11 +130,14 @@ export function ShaderMap({ state, control, kind }: Props) {
   const change = (next: ControlMap, gesture?: string): void =>
     changeControlMap(state, name, kind, next, gesture);
   const usual = toLinear(kind.defaultColour ?? { r: 1, g: 1, b: 1 });
+  const index = Math.min(selected.value, map.points.length - 1);
+  const colourId = `colour-of-${name}`;
   const isFull = map.points.length >= kMostControlPoints;
-  const add = (value: number): void => {
+  const add = (value: number, inSelectedColour = false): void => {
     if (isFull) return;
     const next = withControlPoint(map, value, usual);
-    change(next.map);
+    const colour = inSelectedColour ? map.points[index]?.colour : undefined;
+    change(colour ? withControlPart(next.map, next.index, { colour }) : next.map);
     selected.value = next.index;
   };
   const content = (width: number): PlotContent => {
@@ -148,7 +155,6 @@ export function ShaderMap({ state, control, kind }: Props) {
       showsColours: true,
     };
   };
-  const index = Math.min(selected.value, map.points.length - 1);
   const remove = (at: number): void => {
     change(withoutControlPoint(map, at));
     selected.value = Math.max(0, at - 1);
@@ -158,7 +164,10 @@ export function ShaderMap({ state, control, kind }: Props) {
     <fieldset class="shader-map">
       <legend>{name}</legend>
       <div class="map-plot">
-        <PlotCanvas content={content} add={(x, _, width) => add(valueAt(boxOf(map, width), x))}>
+        <PlotCanvas
+          content={content}
+          add={(x, _, width, modified) => add(valueAt(boxOf(map, width), x), modified)}
+        >
           {(width) => (
             <PlotPoints
               box={boxOf(map, width)}
@@ -175,6 +184,11 @@ export function ShaderMap({ state, control, kind }: Props) {
                 )
               }
               remove={remove}
+              recolour={() => openColour(colourId)}
+              paint={(at) => {
+                const colour = map.points[index]?.colour;
+                if (colour) change(withControlPart(read(), at, { colour }));
+              }}
               done={() => endGesture(state)}
             />
           )}
@@ -184,7 +198,13 @@ export function ShaderMap({ state, control, kind }: Props) {
           <span>{formatValue(max, max - min)}</span>
         </div>
       </div>
-      <PointFields map={map} index={index} change={change} done={() => endGesture(state)} />
+      <PointFields
+        map={map}
+        index={index}
+        colourId={colourId}
+        change={change}
+        done={() => endGesture(state)}
+      />
       <WindowFields map={map} change={change} />
       <button
         type="button"

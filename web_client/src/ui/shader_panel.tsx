@@ -1,9 +1,11 @@
-import { useId } from "preact/hooks";
+import { useSignal } from "@preact/signals";
+import { useId, useRef } from "preact/hooks";
 import type { AppState } from "../state/app_state";
 import { kRunsCode } from "../state/models";
 import { isRefused } from "../state/refusal";
 import { applyCode, complaintsOf, removeCode, shownCode } from "../state/shader_actions";
 import { isVolume } from "../state/voxel_actions";
+import { lazy } from "./lazy";
 import { ShaderControls } from "./shader_controls";
 import { StepOptions } from "./voxel_panel";
 
@@ -11,13 +13,12 @@ interface Props {
   readonly state: AppState;
 }
 
-const kExample = `#uicontrol invlerp range
-#uicontrol vec3 tint color(default="#ffd080")
-#uicontrol float opacity slider(min=0, max=1, default=0.3)
+const ShaderExamplePicker = lazy(
+  async () => (await import("./shader_example_picker")).ShaderExamplePicker,
+);
 
-void main() {
-  float x = range();
-  emitRGBA(vec4(tint * x, opacity * x));
+const kFirstLines = `void main() {
+  emitGrayscale(toNormalized(getDataValue()));
 }`;
 
 const kIndent = "  ";
@@ -35,23 +36,48 @@ function onKey(event: KeyboardEvent & { currentTarget: HTMLTextAreaElement }, st
   }
 }
 
-function Complaints({ state, id }: Props & { readonly id: string }) {
+/** Shows a line of the code, from 1. */
+function selectLine(area: HTMLTextAreaElement | null, line: number): void {
+  if (!area) return;
+  const lines = area.value.split("\n");
+  const start = lines.slice(0, line - 1).reduce((sum, text) => sum + text.length + 1, 0);
+  area.focus();
+  area.setSelectionRange(start, start + (lines[line - 1]?.length ?? 0));
+}
+
+interface ComplaintsProps extends Props {
+  readonly id: string;
+  readonly show: (line: number) => void;
+}
+
+/** What is wrong with the code, by line; it is not drawn then. */
+function Complaints({ state, id, show }: ComplaintsProps) {
   const complaints = complaintsOf(state);
   return (
-    <ul id={id} class="complaints" aria-live="polite">
-      {complaints.map(({ line, column, message }, i) => (
-        <li key={i}>
-          Line {line}
-          {column > 1 && `, column ${column}`}: {message}
-        </li>
-      ))}
-    </ul>
+    <div id={id} aria-live="polite">
+      {complaints.length > 0 && (
+        <p class="hint">This code is not drawn; the picture stays as it was.</p>
+      )}
+      <ul class="complaints">
+        {complaints.map(({ line, column, message }, i) => (
+          <li key={i}>
+            <button type="button" title="Show the line" onClick={() => show(line)}>
+              Line {line}
+              {column > 1 && `, column ${column}`}
+            </button>
+            : {message}
+          </li>
+        ))}
+      </ul>
+    </div>
   );
 }
 
 /** Code that says what a sample shows, and the controls that it declares. */
 export function ShaderPanel({ state }: Props) {
   const id = useId();
+  const open = useSignal(false);
+  const area = useRef<HTMLTextAreaElement>(null);
   const layer = state.layer.value;
   if (!layer || !kRunsCode.has(layer.model)) return null;
   const isDrawn = Boolean(layer.shader?.code);
@@ -65,10 +91,17 @@ export function ShaderPanel({ state }: Props) {
           <StepOptions state={state} usual="A 64th of the diagonal" />
         </div>
       )}
-      <details class="advanced">
+      <details
+        class="advanced"
+        onToggle={(e) => {
+          open.value = e.currentTarget.open;
+        }}
+      >
         <summary>Code</summary>
         <div class="options">
+          {open.value && <ShaderExamplePicker state={state} />}
           <textarea
+            ref={area}
             class="code"
             aria-label="Shader code"
             aria-describedby={id}
@@ -78,30 +111,19 @@ export function ShaderPanel({ state }: Props) {
             spellcheck={false}
             autocomplete="off"
             autocapitalize="off"
-            placeholder={kExample}
+            placeholder={kFirstLines}
             value={shownCode(state)}
             onInput={(e) => {
               state.codeDraft.value = e.currentTarget.value;
             }}
             onKeyDown={(e) => onKey(e, state)}
           />
-          <Complaints state={state} id={id} />
+          <Complaints state={state} id={id} show={(line) => selectLine(area.current, line)} />
           <div class="line">
             <span class="hint">Ctrl+Enter applies</span>
             {isDrawn && (
               <button type="button" class="text-button" onClick={() => removeCode(state)}>
                 Use the map
-              </button>
-            )}
-            {shownCode(state) === "" && (
-              <button
-                type="button"
-                class="text-button"
-                onClick={() => {
-                  state.codeDraft.value = kExample;
-                }}
-              >
-                Example
               </button>
             )}
             <button type="button" class="text-button" onClick={() => applyCode(state)}>

@@ -12,7 +12,8 @@ export type KeyAction =
   | "trackball"
   | "box"
   | "legend"
-  | "hud";
+  | "hud"
+  | "pin";
 
 export type KeyMeaning = { readonly move: (orbit: Orbit) => Orbit } | { readonly do: KeyAction };
 
@@ -43,6 +44,7 @@ const kLetters: Readonly<Record<string, KeyAction>> = {
   b: "box",
   l: "legend",
   h: "hud",
+  i: "pin",
   "?": "help",
 };
 
