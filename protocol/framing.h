@@ -12,7 +12,7 @@
 namespace volcast::protocol {
 
 inline constexpr std::uint32_t kMajor = 1;
-inline constexpr std::uint32_t kMinor = 2;
+inline constexpr std::uint32_t kMinor = 3;
 inline constexpr std::size_t kPrefixBytes = 16;
 inline constexpr std::uint8_t kFrameType = 1;
 

@@ -212,7 +212,7 @@ Result<void> Loop::render(const wire::Render& request, const Descriptors& descri
 Result<void> Loop::measure(const wire::Measure& request) {
     const auto job = jobFrom(request);
     const auto measured =
-        job ? meter_.advance(*job) : Result<std::optional<accuracy::Measurement>>{job.error()};
+        job ? advance(*job) : Result<std::optional<accuracy::Measurement>>{job.error()};
     if (Result<void> alive = checkDevice(); !alive) return alive;
     if (!measured) {
         wire::Failed failed;
@@ -227,6 +227,16 @@ Result<void> Loop::measure(const wire::Measure& request) {
         answer.mutable_measuring()->set_request(request.request());
     }
     return reply(std::move(answer));
+}
+
+Result<std::optional<accuracy::Measurement>> Loop::advance(const accuracy::Job& job) {
+    if (job.aim == accuracy::Aim::kCandidate) return meter_.advance(job);
+    const auto evidence = evidence_.of(job.scene, job.size);
+    if (!evidence) return evidence.error();
+    if (job.aim != accuracy::Aim::kEstimates) return meter_.advance(job, *evidence);
+    accuracy::Measurement measured;
+    measured.estimates = *evidence;
+    return measured;
 }
 
 Result<void> Loop::pick(const wire::Pick& request) {

@@ -9,6 +9,10 @@ namespace {
 
 constexpr std::size_t kTokenBytes = 24;
 
+std::string nameOf(std::uint32_t person, std::string wanted) {
+    return wanted.empty() ? "Guest " + std::to_string(person) : std::move(wanted);
+}
+
 }  // namespace
 
 std::string PersonBook::hashOf(const std::string& token) const {
@@ -35,7 +39,7 @@ Result<PersonBook::Arrival> PersonBook::arrive(std::string name, std::function<v
     const std::lock_guard lock{mutex_};
     const std::uint32_t person = ++lastPerson_;
     Record& record = records_[person];
-    record.name = name.empty() ? "Guest " + std::to_string(person) : std::move(name);
+    record.name = nameOf(person, std::move(name));
     return enter(person, record, std::move(replaced));
 }
 
@@ -59,6 +63,14 @@ void PersonBook::lost(std::uint32_t person, std::uint64_t visit, TimePoint until
     if (found == records_.end() || found->second.visit != visit) return;  // Went on elsewhere.
     found->second.replaced = nullptr;
     found->second.until = until;
+}
+
+std::string PersonBook::rename(std::uint32_t person, std::string name) {
+    const std::lock_guard lock{mutex_};
+    std::string taken = nameOf(person, std::move(name));
+    const auto found = records_.find(person);
+    if (found != records_.end()) found->second.name = taken;
+    return taken;
 }
 
 void PersonBook::opened(std::uint32_t person, std::uint32_t number, const std::string& view) {

@@ -37,6 +37,8 @@ public:
     /// The connection of `visit` ended; its token is good until `until`.
     void lost(std::uint32_t person, std::uint64_t visit, TimePoint until);
 
+    /// The name that the person has from now on; `name`, or that of a guest where it is empty.
+    std::string rename(std::uint32_t person, std::string name);
     void opened(std::uint32_t person, std::uint32_t number, const std::string& view);
     void closed(std::uint32_t person, std::uint32_t number);
 

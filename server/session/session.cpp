@@ -18,7 +18,6 @@ namespace {
 constexpr std::uint16_t kPolicyViolation = 1008;
 constexpr std::uint16_t kInternalError = 1011;
 constexpr std::uint16_t kGoesOnElsewhere = 4001;  ///< protocol/README.md.
-constexpr std::size_t kMostNameBytes = 64;
 
 std::vector<std::byte> bytesOf(const std::string& text) {
     const auto bytes = std::as_bytes(std::span{text});
@@ -85,10 +84,15 @@ void Session::receive(std::span<const std::byte> bytes, Form form, TimePoint now
         case v1::ClientMessage::kShareView: return shareView(message->share_view());
         case v1::ClientMessage::kTakeControl: return takeControl(message->take_control());
         case v1::ClientMessage::kHandOver: return handOver(message->hand_over());
+        case v1::ClientMessage::kAskControl: return askControl(message->ask_control());
+        case v1::ClientMessage::kSetName: return setName(message->set_name());
         case v1::ClientMessage::kUndo: return undo(message->undo(), now);
         case v1::ClientMessage::kExplain: return explain(message->explain());
         case v1::ClientMessage::kMeasureAccuracy:
             return measureAccuracy(message->measure_accuracy());
+        case v1::ClientMessage::kMeasureDifference:
+            return measureDifference(message->measure_difference());
+        case v1::ClientMessage::kDrawThumbnail: return drawThumbnail(message->draw_thumbnail());
         case v1::ClientMessage::kPick: return pick(message->pick());
         case v1::ClientMessage::kDescribeShader: return describeShader(message->describe_shader());
         case v1::ClientMessage::kInjectFault: return injectFault(message->inject_fault());
@@ -131,11 +135,7 @@ void Session::hello(const v1::Hello& message) {
 }
 
 bool Session::identify(const v1::Hello& message) {
-    if (message.person().size() > kMostNameBytes) {
-        send(errorMessage(v1::ERROR_CODE_LIMIT_EXCEEDED,
-                          "a name of " + std::to_string(message.person().size()) +
-                              " bytes; the limit is " + std::to_string(kMostNameBytes),
-                          {}, "hello.person"));
+    if (!checkName(message.person(), "hello.person")) {
         end({kPolicyViolation, "name too long"});
         return false;
     }

@@ -99,10 +99,16 @@ private:
     void shareView(const v1::ShareView& message);
     void takeControl(const v1::TakeControl& message);
     void handOver(const v1::HandOver& message);
+    void askControl(const v1::AskControl& message);
+    void setName(const v1::SetName& message);
+    /// False where the name is too long, which the client is told with `field`.
+    bool checkName(const std::string& name, const char* field);
     void undo(const v1::Undo& message, TimePoint now);
 
     void explain(const v1::Explain& message);
     void measureAccuracy(const v1::MeasureAccuracy& message);
+    void measureDifference(const v1::MeasureDifference& message);
+    void drawThumbnail(const v1::DrawThumbnail& message);
     void pick(const v1::Pick& message);
     void describeShader(const v1::DescribeShader& message);
     void injectFault(const v1::InjectFault& message);

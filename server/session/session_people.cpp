@@ -2,6 +2,7 @@
 #include <chrono>
 #include <utility>
 
+#include "renderer/base/printable.h"
 #include "server/session/session.h"
 
 namespace volcast::session {
@@ -9,6 +10,7 @@ namespace volcast::session {
 namespace {
 
 constexpr std::chrono::seconds kUsualLife = std::chrono::hours{24};
+constexpr std::size_t kMostNameBytes = 64;
 constexpr std::chrono::seconds kLongestLife = std::chrono::hours{24} * 30;
 
 }  // namespace
@@ -95,6 +97,26 @@ void Session::takeControl(const v1::TakeControl& message) {
 void Session::handOver(const v1::HandOver& message) {
     const Seat* seat = findOrRefuse(message.view(), 0);
     if (seat != nullptr) seat->view->handOver(seat->viewer, message.person());
+}
+
+void Session::askControl(const v1::AskControl& message) {
+    const Seat* seat = findOrRefuse(message.view(), 0);
+    if (seat != nullptr) seat->view->askControl(seat->viewer, message.withdraw());
+}
+
+bool Session::checkName(const std::string& name, const char* field) {
+    if (name.size() <= kMostNameBytes) return true;
+    send(errorMessage(v1::ERROR_CODE_LIMIT_EXCEEDED,
+                      "a name of " + std::to_string(name.size()) + " bytes; the limit is " +
+                          std::to_string(kMostNameBytes),
+                      {}, field));
+    return false;
+}
+
+void Session::setName(const v1::SetName& message) {
+    if (!checkName(message.person(), "person")) return;
+    who_.name = shared_.views.people().rename(who_.person, base::printable(message.person()));
+    for (const auto& [number, seat] : seats_) seat.view->rename(seat.viewer, who_.name);
 }
 
 void Session::undo(const v1::Undo& message, TimePoint now) {

@@ -54,6 +54,7 @@ void SharedView::end() {
     const Turn turn{*this};
     if (std::exchange(ended_, true)) return;
     parts_.router.remove(global_);
+    dropThumbnails();
     if (viewers_.empty()) return;  // Was dropped when the last one left.
     outbox_.put([&render = parts_.render, view = global_] { render.dropView(view); });
 }
@@ -74,6 +75,9 @@ Result<void> SharedView::update(ViewerId id, const v1::Update& message, TimePoin
     SceneChange change = SceneChange::kNone;
     if (changesScene && !steers) {
         tellRefusal(id, people_.whyNotSteering(id), seq);
+        // What the client shows may be ahead of the scene: control went while inputs were under
+        // way.
+        if (state_.scene && viewer->opened) tellScene(*viewer);
         return boost::system::in_place_value;
     }
     if (changesScene) {
@@ -242,6 +246,13 @@ void SharedView::tellScene(ViewerId author, bool cameraOnly) {
         message.mutable_scene_changed()->set_view(viewer->number());
         tell(*viewer, message);
     }
+}
+
+void SharedView::tellScene(Viewer& viewer) {
+    v1::ServerMessage message = sceneMessage(0, false);
+    message.mutable_scene_changed()->set_view(viewer.number());
+    message.mutable_scene_changed()->set_input_seq(scene_.inputSeq());
+    tell(viewer, std::move(message));
 }
 
 void SharedView::datasetChanged(ViewerId viewer, const std::string& dataset) {

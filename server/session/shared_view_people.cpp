@@ -61,12 +61,14 @@ void SharedView::unseat(ViewerId id) {
     const bool first = viewers_.begin()->first == id;
     picks_.erase(id);
     if (picker_ == id) pickNext();
+    forgetThumbnails(id);
     viewers_.erase(id);
     dropUnused();
     if (viewers_.empty()) {
         emptySince_ = Clock::now();
         drawing_.reset();
         outbox_.put([&render = parts_.render, view = global_] { render.dropView(view); });
+        dropThumbnails();
     } else if (first) {
         refresh(Clock::now());  // News that it alone would have brought.
     }
@@ -106,6 +108,23 @@ void SharedView::handOver(ViewerId id, std::uint32_t person) {
     peopleChanged(id);
 }
 
+void SharedView::askControl(ViewerId id, bool withdraw) {
+    const Turn turn{*this};
+    if (find(id) == nullptr) return;
+    if (const std::string why = people_.ask(id, withdraw); !why.empty()) {
+        return tellRefusal(id, why, 0);
+    }
+    tellPeople();
+}
+
+void SharedView::rename(ViewerId id, const std::string& name) {
+    const Turn turn{*this};
+    if (find(id) == nullptr) return;
+    people_.at(id).name = name;
+    tellPeople();
+    changed();
+}
+
 /// Tells everybody; first the one who steers now and did not: `steered` did. They count from the
 /// newest input, which they must know before they steer.
 void SharedView::peopleChanged(ViewerId steered) {
@@ -114,12 +133,7 @@ void SharedView::peopleChanged(ViewerId steered) {
         spdlog::info(R"(event=control_taken view={} person={})", id_,
                      people_.at(people_.steering()).person);
         viewer->resize(viewer->size(), 0);
-        if (state_.scene && viewer->opened) {
-            v1::ServerMessage message = sceneMessage(0, false);
-            message.mutable_scene_changed()->set_input_seq(scene_.inputSeq());
-            message.mutable_scene_changed()->set_view(viewer->number());
-            tell(*viewer, std::move(message));
-        }
+        if (state_.scene && viewer->opened) tellScene(*viewer);
     }
     tellPeople();
     changed();

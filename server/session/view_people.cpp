@@ -21,7 +21,12 @@ void ViewPeople::fill() {
     const auto next = std::ranges::find_if(members_, [](const auto& one) {
         return one.second.role == v1::ROLE_CONTROL && !one.second.awayUntil;
     });
-    if (next != members_.end()) steers_ = next->first;
+    if (next != members_.end()) giveTo(next->first);
+}
+
+void ViewPeople::giveTo(ViewerId id) {
+    steers_ = id;
+    members_.at(id).asks = false;
 }
 
 std::optional<ViewerId> ViewPeople::find(std::uint32_t person, std::uint32_t number) const {
@@ -76,7 +81,13 @@ std::string ViewPeople::take(ViewerId id) {
     if (members_.at(id).role != v1::ROLE_CONTROL) {
         return "you may watch this view but not steer it; somebody who steers may hand over to you";
     }
-    steers_ = id;
+    giveTo(id);
+    return {};
+}
+
+std::string ViewPeople::ask(ViewerId id, bool withdraw) {
+    if (steers_ == id && !withdraw) return "you steer this view already";
+    members_.at(id).asks = !withdraw;
     return {};
 }
 
@@ -86,7 +97,7 @@ std::string ViewPeople::handOver(ViewerId from, std::uint32_t person) {
         if (member.person != person) continue;
         if (member.awayUntil) return member.name + " is away";
         member.role = v1::ROLE_CONTROL;
-        steers_ = id;
+        giveTo(id);
         return {};
     }
     return "nobody in this view has the number " + std::to_string(person);
@@ -110,6 +121,7 @@ v1::People ViewPeople::message(std::uint32_t number) const {
         person.set_role(member.role);
         person.set_steers(id == steers_);
         person.set_away(member.awayUntil.has_value());
+        person.set_asks(member.asks);
     }
     return message;
 }

@@ -22,6 +22,7 @@ struct Member {
     std::uint32_t number = 0;                 ///< The client's own for the view.
     scene::PictureSize size{512, 512};        ///< Of the client's pictures.
     std::optional<TimePoint> awayUntil = {};  ///< The connection was lost; forgotten then.
+    bool asks = false;                        ///< Would like to steer.
 };
 
 /// Who is in a view, and who of them steers: one at a time, as long as somebody may.
@@ -52,6 +53,8 @@ public:
     std::string take(ViewerId id);
     /// Empty where control went to `person`, else why not.
     std::string handOver(ViewerId from, std::uint32_t person);
+    /// Empty where `id` asks to steer from now on, or no more; else why not.
+    std::string ask(ViewerId id, bool withdraw);
     /// Why `id` may not change the scene; empty where it steers.
     [[nodiscard]] std::string whyNotSteering(ViewerId id) const;
 
@@ -60,6 +63,7 @@ public:
 private:
     /// Somebody who is here and may steer does, where nobody does.
     void fill();
+    void giveTo(ViewerId id);
 
     std::map<ViewerId, Member> members_;
     ViewerId steers_ = 0;  ///< 0: nobody.

@@ -24,6 +24,10 @@ enum class SceneChange {
 /// `field` relative to the message.
 Result<scene::PictureSize> sizeFrom(const v1::Viewport& message, std::uint64_t maxPixels);
 
+/// Reads a scene that is to be drawn at once. Errors: as sceneFrom() and scene::validate();
+/// kNotFound for data that is unknown or not loaded; `field` relative to the scene.
+Result<scene::Scene> readyScene(const v1::Scene& message, Catalogue& catalogue);
+
 /// What one view shows: its last good scene, and the one that waits for data.
 ///
 /// Every method either succeeds or leaves all as it was.

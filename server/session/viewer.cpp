@@ -25,12 +25,14 @@ Viewer::Viewer(Desc desc) : desc_{std::move(desc)} {
 RenditionKey Viewer::wanted() const {
     if (resting_) return full();
     const PaceLevel level = pacing_.level();
-    return {.size = {scaled(desc_.size.x, level.scale), scaled(desc_.size.y, level.scale)},
-            .fullAccuracy = level.fullAccuracy};
+    const double scale = pins_.scale ? level.scale : std::min(level.scale, drawLimit_.scale);
+    return {.size = {scaled(desc_.size.x, scale), scaled(desc_.size.y, scale)},
+            .fullAccuracy = level.fullAccuracy && (pins_.fullAccuracy || drawLimit_.fullAccuracy)};
 }
 
 void Viewer::setPins(const PacePins& pins, v1::Codec codec) {
     pinnedCodec_ = codec;
+    pins_ = pins;
     PacePins all = pins;
     if (codec != v1::CODEC_UNSPECIFIED) all.video = isVideo(codec);
     pacing_.setPins(all);
@@ -166,7 +168,9 @@ v1::Pace Viewer::paceOf(const Encoding& encoding, TimePoint now) const {
     pace.set_rtt_min_ms(ms(report.shortestRoundTrip));
     pace.set_queue_delay_ms(ms(report.queueDelay));
     pace.set_bytes_per_s(report.bytesPerS);
-    pace.set_reason(report.reason);
+    const bool limited = !whyLimited_.empty() && key != full();
+    const char* between = limited && !report.reason.empty() ? "; " : "";
+    pace.set_reason(report.reason + between + (limited ? whyLimited_ : ""));
     return pace;
 }
 

@@ -5,8 +5,11 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
+#include <utility>
 
 #include "server/session/client_codecs.h"
+#include "server/session/draw_pace.h"
 #include "server/session/mail.h"
 #include "server/session/pacing.h"
 #include "server/session/rendition.h"
@@ -58,6 +61,11 @@ public:
     [[nodiscard]] std::uint64_t resizedBy() const noexcept { return resizedBy_; }
     void setPins(const PacePins& pins, v1::Codec codec);
     void setCodecs(const ClientCodecs& codecs);
+    /// What drawing allows while the view moves, and why; what is pinned stays.
+    void limitDrawing(const DrawLevel& limit, std::string why) {
+        drawLimit_ = limit;
+        whyLimited_ = std::move(why);
+    }
     [[nodiscard]] const ClientCodecs& codecs() const noexcept { return desc_.codecs; }
     /// Where it has been left alone for long enough, the picture in full is wanted from now on.
     void rest(TimePoint now);
@@ -134,6 +142,9 @@ private:
 
     Desc desc_;
     Pacing pacing_;
+    PacePins pins_;
+    DrawLevel drawLimit_;
+    std::string whyLimited_;
     v1::Codec pinnedCodec_ = v1::CODEC_UNSPECIFIED;
     bool resting_ = false;  ///< The picture is wanted in full.
     Rendition::InVideo video_;

@@ -33,6 +33,7 @@ struct RenderRequest {
     scene::PictureSize size{512, 512};
     bool wantFloat = false;
     std::string viewId = {};  ///< What the log calls the view.
+    bool background = false;  ///< Drawn when no view waits for a picture.
 };
 
 /// One candidate of a picture to measure, in the name of a view.

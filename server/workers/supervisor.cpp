@@ -75,6 +75,7 @@ bool Supervisor::turn(const std::function<Inbox()>& take) {
     checkTimes();
     startWorkers();
     dispatch();
+    rehearse();
     reapDying();
     return true;
 }
@@ -125,6 +126,7 @@ void Supervisor::accept(Inbox& inbox) {
         stopMeasure(view);
         picks_.erase(view);
         if (main_) main_->dropView(view);
+        if (spare_) spare_->dropView(view);
     }
     for (auto& [view, timed] : inbox.requests) {
         submit(std::move(timed));
@@ -192,6 +194,8 @@ void Supervisor::handle(Worker& worker, const WorkerProcess::Answer& answer) {
         startError_ = worker::errorFrom(answer.failed());
         return lose(worker, startError_->message);
     }
+    if (answer.has_failed() && rehearsal_.ended(answer.failed().request())) return;
+    if (answer.has_rendered() && rehearsal_.ended(answer.rendered().request())) return;
     if (answer.has_failed()) return refuse(answer.failed());
     if (answer.has_rendered()) return finish(answer.rendered());
     if (answer.has_measuring()) return continueMeasure(answer.measuring().request());
@@ -341,7 +345,7 @@ RenderStatus Supervisor::status() const {
     status.generation = generation_;
     status.losses = losses_;
     status.starts = starts_;
-    status.spareReady = spare_ && spare_->ready() && spare_->warm();
+    status.spareReady = spareReady();
     status.workerPid = main_ ? main_->pid() : 0;
     status.sparePid = spare_ ? spare_->pid() : 0;
     if (status.ready) {

@@ -19,6 +19,7 @@ constexpr int kFailuresToGiveUp = 3;
 }  // namespace
 
 void Supervisor::retire(Worker& worker) {
+    rehearsal_.workerLost(worker->pid());
     ChildProcess child = worker->takeChild();
     worker.reset();
     child.kill();

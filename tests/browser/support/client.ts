@@ -102,6 +102,20 @@ export class Client {
     );
   }
 
+  /** Waits for the exact picture of somebody else's view, of an input after `after`. */
+  async watched(after = 0): Promise<void> {
+    await this.page.waitForFunction(
+      (seq) => {
+        const picture = document.querySelector<HTMLElement>(".picture")?.dataset;
+        const badge = document.querySelector<HTMLElement>(".badge");
+        const exact = badge?.textContent?.includes("Watching, exact");
+        return Number(picture?.inputSeq ?? 0) > seq && exact;
+      },
+      after,
+      { timeout: kPatienceMs },
+    );
+  }
+
   /** Does something to the view and waits for the exact picture of it. */
   async after(act: () => Promise<void>): Promise<void> {
     const before = Number(await this.fact("inputSeq"));
@@ -109,10 +123,10 @@ export class Client {
     await this.settled(before);
   }
 
-  /** What is on the screen where the picture is: composited, in device pixels. */
-  async pixels(): Promise<Pixels> {
+  /** What is on the screen where a view's picture is: composited, in device pixels. */
+  async pixels(view = 0): Promise<Pixels> {
     await this.#coverPicture("hidden");
-    const png = await this.page.locator(".picture").screenshot();
+    const png = await this.page.locator(".picture").nth(view).screenshot();
     await this.#coverPicture("");
     return decodePng(png);
   }
@@ -121,12 +135,13 @@ export class Client {
   async #coverPicture(visibility: "hidden" | ""): Promise<void> {
     await this.page.evaluate((value) => {
       for (const part of document.querySelectorAll<HTMLElement>(
-        ".tools, .readout, .picked, .notices, .overlay, .hud",
+        ".tools, .readout, .picked, .notices, .overlay, .hud, .difference, .pane-head, .pane-frame, .panes-link",
       )) {
         part.style.visibility = value;
       }
-      const picture = document.querySelector<HTMLElement>(".picture");
-      if (picture) picture.style.outline = value ? "none" : "";
+      for (const picture of document.querySelectorAll<HTMLElement>(".picture")) {
+        picture.style.outline = value ? "none" : "";
+      }
     }, visibility);
   }
 

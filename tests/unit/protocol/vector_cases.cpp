@@ -61,6 +61,12 @@ std::vector<std::pair<std::string, std::string>> clientMeanings() {
         {"patch_decoded", R"({"patchDecoded":{"codec":"CODEC_H264","rgb":"AAAA/////wAA"}})"},
         {"patch_failed", R"({"patchDecoded":{"codec":"CODEC_VP9","error":"not supported"}})"},
         {"pick", R"({"pick":{"view":7,"inputSeq":"9007199254740993","x":8191,"y":12}})"},
+        {"measure_difference",
+         R"({"measureDifference":{"view":7,"maxPixels":65536,"maxMs":20000}})"},
+        {"measure_difference_stop", R"({"measureDifference":{"view":7,"stop":true}})"},
+        {"measure_accuracy_estimate", R"({"measureAccuracy":{"view":7,"estimate":true}})"},
+        {"draw_thumbnail", R"({"drawThumbnail":{"view":7,"request":3,"scene":{"layers":[{)"
+                           R"("id":"main","model":"RAY_MODEL_MIP"}]},"width":96,"height":72}})"},
         {"inject_fault", R"({"injectFault":{"view":7,"fault":"crash"}})"},
         {"ping", R"({"ping":{"token":"9007199254740993"}})"},
         {"hello_again", R"({"hello":{"major":1,"minor":2,"person":"Zoë","resume":"a-b_c"}})"},
@@ -69,6 +75,9 @@ std::vector<std::pair<std::string, std::string>> clientMeanings() {
         {"share_view", R"({"shareView":{"view":2,"role":"ROLE_WATCH","expiresS":3600}})"},
         {"take_control", R"({"takeControl":{"view":2}})"},
         {"hand_over", R"({"handOver":{"view":2,"person":4294967295}})"},
+        {"ask_control", R"({"askControl":{"view":2}})"},
+        {"ask_control_no_more", R"({"askControl":{"view":2,"withdraw":true}})"},
+        {"set_name", R"({"setName":{"person":"Zoë"}})"},
         {"undo", R"({"undo":{"view":2}})"},
         {"redo", R"({"undo":{"view":2,"redo":true,"inputSeq":"9007199254740993"}})"},
         {"no_body", "{}"},
@@ -96,9 +105,9 @@ std::vector<std::pair<std::string, std::string>> serverMeanings() {
          R"("camera":{"eye":{"x":-1.5},"center":{},"up":{"z":1},"fovyDegrees":30}}})"},
         {"view_shared", R"({"viewShared":{"view":2,"link":"AQI-_w","url":"/#link=AQI-_w",)"
                         R"("role":"ROLE_WATCH","expires":"1800000000"}})"},
-        {"people",
-         R"({"people":{"view":2,"people":[{"id":7,"name":"Zoë","role":"ROLE_CONTROL",)"
-         R"("steers":true},{"id":8,"name":"Guest 8","role":"ROLE_WATCH","away":true}]}})"},
+        {"people", R"({"people":{"view":2,"people":[{"id":7,"name":"Zoë","role":"ROLE_CONTROL",)"
+                   R"("steers":true},{"id":8,"name":"Guest 8","role":"ROLE_WATCH","away":true},)"
+                   R"({"id":9,"role":"ROLE_WATCH","asks":true}]}})"},
         {"dataset_list_empty", R"({"datasetList":{}})"},
         {"dataset_list", R"({"datasetList":{"datasets":[{"id":"demo:mesh","name":"Demo mesh"},)"
                          R"({"id":"a b/é.vtu","name":"é.vtu","state":"DATASET_STATE_IMPORTING",)"
@@ -123,6 +132,19 @@ std::vector<std::pair<std::string, std::string>> serverMeanings() {
          R"("distance":3.25,"cell":0,"colour":{"r":0.5,"g":1}}})"},
         {"picked_voxel", R"({"picked":{"view":7,"inputSeq":"41","layer":"main","values":[)"
                          R"({"field":"f"}],"position":{},"voxel":[1,0,67],"colour":{}}})"},
+        {"difference_report",
+         R"({"differenceReport":{"view":7,"inputSeq":"41","width":4,"height":2,"step":1,)"
+         R"("refines":true,"firstRow":1,"off":"ADwAAP97AHw=","pixels":"8","maxError":0.5,)"
+         R"("rmsError":0.25,"shareOver255":0.125,"progress":1,"done":true}})"},
+        {"difference_stopped",
+         R"({"differenceReport":{"view":7,"done":true,"stopped":"the view changed"}})"},
+        {"accuracy_estimated",
+         R"({"accuracyReport":{"view":7,"done":true,"progress":1,"rows":[{"layer":"main",)"
+         R"("integrator":"INTEGRATOR_AVERAGE","maxError":0.25,"medianMs":12.5}],)"
+         R"("estimated":true}})"},
+        {"thumbnail", R"({"thumbnail":{"view":7,"request":3,"codec":"CODEC_JPEG",)"
+                      R"("picture":"/9j/"}})"},
+        {"thumbnail_refused", R"({"thumbnail":{"view":7,"request":4,"refusal":"no memory"}})"},
         {"picked_nothing", R"({"picked":{"view":7,"inputSeq":"41","x":3,"y":4}})"},
         {"view_opened", R"({"viewOpened":{"view":7,"scene":)" + scene + "}}"},
         {"view_status_recovering",

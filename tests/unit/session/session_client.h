@@ -79,6 +79,17 @@ public:
         message.mutable_hand_over()->set_person(person);
         send(message);
     }
+    void askControl(bool withdraw = false) {
+        v1::ClientMessage message;
+        message.mutable_ask_control()->set_view(1);
+        message.mutable_ask_control()->set_withdraw(withdraw);
+        send(message);
+    }
+    void setName(const std::string& name) {
+        v1::ClientMessage message;
+        message.mutable_set_name()->set_person(name);
+        send(message);
+    }
     /// A link to view 1; empty where it was refused.
     std::string share(v1::Role role, std::uint32_t expiresS = 0) {
         v1::ClientMessage message;

@@ -118,6 +118,10 @@ TEST_F(SessionPeople, AWatcherSeesTheCameraMoveButMayNotMoveIt) {
     ASSERT_TRUE(refused.has_value());
     EXPECT_EQ(refused->code(), v1::ERROR_CODE_NOT_PERMITTED);
     EXPECT_EQ(refused->input_seq(), 9U);
+    const auto asItIs = ben->sceneChanged();
+    ASSERT_TRUE(asItIs.has_value()) << "who is refused hears what the view shows";
+    EXPECT_EQ(asItIs->scene().camera().eye().x(), 5.0);
+    EXPECT_EQ(asItIs->input_seq(), 2U);
     ben->undo();
     EXPECT_EQ(ben->error()->code(), v1::ERROR_CODE_NOT_PERMITTED);
     EXPECT_TRUE(ann->never([](const auto& one) { return one.has_scene_changed(); }));
@@ -169,6 +173,40 @@ TEST_F(SessionPeople, AWatcherWhoIsHandedControlSteers) {
     EXPECT_EQ(ann->sceneChanged()->camera().eye().x(), 8.0);
     ann->handOver(99);
     EXPECT_EQ(ann->error()->code(), v1::ERROR_CODE_NOT_PERMITTED);
+}
+
+TEST_F(SessionPeople, AWatcherAsksForControlAndEverybodySeesIt) {
+    const auto ben = join("Ben", v1::ROLE_WATCH);
+    ben->askControl();
+    const auto asks = [](const auto& one) {
+        return one.has_people() && one.people().people_size() == 2 && one.people().people(1).asks();
+    };
+    EXPECT_TRUE(ann->wait(asks).has_value());
+    ben->look(9, 7.0);
+    EXPECT_EQ(ben->error()->code(), v1::ERROR_CODE_NOT_PERMITTED) << "asking is not getting";
+    ann->askControl();
+    EXPECT_EQ(ann->error()->message(), "you steer this view already");
+    ben->askControl(true);
+    EXPECT_TRUE(ann->wait([&](const auto& one) { return one.has_people() && !asks(one); }));
+}
+
+TEST_F(SessionPeople, ANameIsChangedForAllAndKeptByTheToken) {
+    const auto ben = join("Ben", v1::ROLE_WATCH);
+    ben->setName("Benjamin\n");
+    const auto named = [](const std::string& name) {
+        return [name](const auto& one) {
+            return one.has_people() && one.people().people_size() == 2 &&
+                   one.people().people(1).name() == name;
+        };
+    };
+    EXPECT_TRUE(ann->wait(named("Benjamin?")).has_value()) << "no control characters";
+    ben->setName("");
+    EXPECT_TRUE(ann->wait(named("Guest 2")).has_value());
+    ben->setName(std::string(65, 'x'));
+    const auto refused = ben->error();
+    EXPECT_EQ(refused->code(), v1::ERROR_CODE_LIMIT_EXCEEDED);
+    EXPECT_EQ(refused->field(), "person");
+    EXPECT_FALSE(ben->session->closing().has_value()) << "a refused name ends nothing";
 }
 
 TEST_F(SessionPeople, EachHasAViewportOfTheirOwn) {

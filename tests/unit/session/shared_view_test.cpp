@@ -313,6 +313,57 @@ TEST_F(SharedViewTest, PicksOfTwoViewersAreBothAnswered) {
     }
 }
 
+TEST_F(SharedViewTest, ThumbnailsOfTwoViewersAreDrawnOneAfterTheOtherInAViewOfTheirOwn) {
+    const ViewerId one = join(), two = join();
+    drawLast();
+    v1::DrawThumbnail asked;
+    asked.set_width(4);
+    asked.set_height(3);
+    *asked.mutable_scene() = worker::toMessage(render.requests[0].scene);
+    for (const ViewerId viewer : {one, two}) {
+        asked.set_request(static_cast<std::uint32_t>(10 + viewer));
+        ASSERT_TRUE(view->drawThumbnail(viewer, asked).has_value());
+    }
+    ASSERT_TRUE(render.has(render.requests, 2)) << "the second waits for the first";
+    for (std::size_t i = 1; i <= 2; ++i) {
+        ASSERT_TRUE(render.has(render.requests, i + 1));
+        const workers::RenderRequest request = [&] {
+            const std::lock_guard lock{render.mutex};
+            return render.requests[i];
+        }();
+        EXPECT_NE(request.view, view->global());
+        EXPECT_TRUE(request.background);
+        EXPECT_EQ(request.size, glm::ivec2(4, 3));
+        if (i == 2) {
+            events.failed(request.view, request.tag,
+                          fail(ErrorCode::kShaderBuild, "no such model"));
+            break;
+        }
+        events.rendered(drawn(request));
+    }
+    const auto answer = [&](ViewerId viewer) -> std::optional<v1::Thumbnail> {
+        const auto until = Clock::now() + std::chrono::seconds{30};
+        while (Clock::now() < until) {
+            while (const auto mail = view->takeMail(viewer)) {
+                if (mail->has_thumbnail()) return mail->thumbnail();
+            }
+            std::this_thread::yield();
+        }
+        return std::nullopt;
+    };
+    const auto first = answer(one), second = answer(two);
+    ASSERT_TRUE(first && second);
+    EXPECT_EQ(first->request(), 10 + one);
+    EXPECT_EQ(first->codec(), v1::CODEC_JPEG);
+    EXPECT_FALSE(first->picture().empty());
+    EXPECT_EQ(second->request(), 10 + two);
+    EXPECT_EQ(second->refusal(), "no such model");
+    const std::uint64_t own = render.requests[1].view;
+    view->leave(one);
+    view->leave(two);
+    EXPECT_EQ(render.dropped, (std::vector<std::uint64_t>{view->global(), own}));
+}
+
 /// Draws at once, on a thread of its own, as the real one does.
 TEST_F(SharedViewTest, ManyThreadsAtOnceLoseNoFrame) {
     constexpr std::uint64_t kInputs = 200;

@@ -41,6 +41,18 @@ TEST_F(ViewPeopleTest, OnlyWhoSteersHandsOverAndAWatcherMaySteerByIt) {
     EXPECT_EQ(people.take(1), "") << "who handed over may take control back";
 }
 
+TEST_F(ViewPeopleTest, WhoAsksIsSeenUntilTheySteerOrWithdraw) {
+    EXPECT_NE(people.ask(1, false), "") << "who steers need not ask";
+    EXPECT_EQ(people.ask(3, false), "");
+    EXPECT_TRUE(people.message(1).people(2).asks());
+    EXPECT_FALSE(people.steers(3)) << "asking is not getting";
+    EXPECT_EQ(people.ask(3, true), "");
+    EXPECT_FALSE(people.message(1).people(2).asks());
+    EXPECT_EQ(people.ask(3, false), "");
+    EXPECT_EQ(people.handOver(1, 13), "");
+    EXPECT_FALSE(people.message(1).people(2).asks());
+}
+
 TEST_F(ViewPeopleTest, ControlGoesOnWhenWhoSteersLeaves) {
     people.remove(1);
     EXPECT_TRUE(people.steers(2));

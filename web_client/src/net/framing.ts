@@ -2,7 +2,7 @@ import { fromBinary, fromJsonString } from "@bufbuild/protobuf";
 import { type FrameHeader, FrameHeaderSchema } from "./gen/volcast/v1/frame_pb";
 
 export const kMajor = 1;
-export const kMinor = 2;
+export const kMinor = 3;
 export const kPrefixBytes = 16;
 export const kFrameType = 1;
 /** Bit 0 of the prefix's flags: the header is protobuf JSON. */

@@ -52,6 +52,11 @@ export class InputPacer {
     return !this.#isDirty() && this.#answered >= this.#newest;
   }
 
+  /** Something of the scene changed and was not sent. */
+  get holdsScene(): boolean {
+    return this.#dirty.camera || this.#dirty.scene;
+  }
+
   /** Notes a change that happened at `inputAt` on performance.now()'s clock. */
   mark(part: keyof Dirty, inputAt: number): void {
     this.#dirty[part] = true;
@@ -67,6 +72,24 @@ export class InputPacer {
     this.#unanswered.clear();
     this.#clear();
     return this.#newest;
+  }
+
+  /** A number for something that is no Update, behind all that changed before it. */
+  takeNext(inputAt: number): bigint {
+    this.#flush();
+    return this.#number(inputAt);
+  }
+
+  /** The view's inputs go on from `inputSeq`: somebody else gave them, or a page before this one. */
+  continueFrom(inputSeq: bigint): void {
+    if (inputSeq > this.#newest) this.#newest = inputSeq;
+    this.answered(this.#newest);
+  }
+
+  /** Changes that were not sent are of no use: somebody else decides what is seen. */
+  forgetScene(): void {
+    this.#dirty.camera = false;
+    this.#dirty.scene = false;
   }
 
   /** A frame of `inputSeq` arrived: the server is free for the next state. */
@@ -118,10 +141,15 @@ export class InputPacer {
     if (!this.#isDirty()) return;
     const seq = this.#newest + 1n;
     if (!this.#send(this.#dirty, seq)) return;
-    this.#newest = seq;
-    this.#sentAt = this.#now();
-    this.#unanswered.set(seq, this.#sentAt);
-    if (this.#inputAt !== undefined) this.#inputTimes.set(seq, this.#inputAt);
+    this.#number(this.#inputAt);
     this.#clear();
+  }
+
+  #number(inputAt: number | undefined): bigint {
+    this.#newest += 1n;
+    this.#sentAt = this.#now();
+    this.#unanswered.set(this.#newest, this.#sentAt);
+    if (inputAt !== undefined) this.#inputTimes.set(this.#newest, inputAt);
+    return this.#newest;
   }
 }

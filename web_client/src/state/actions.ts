@@ -1,4 +1,4 @@
-import { create } from "@bufbuild/protobuf";
+import { create, equals } from "@bufbuild/protobuf";
 import {
   type Layer,
   LayerSchema,
@@ -12,7 +12,7 @@ import { defaultMap } from "../transfer/presets";
 import { type Axis, axisOf, kStraight } from "../transfer/scale";
 import { stretched, type TransferFunction } from "../transfer/transfer_function";
 import { fitted } from "../view/camera";
-import type { AppState, Edit, MapEdit } from "./app_state";
+import type { AppState, Edit, MapEdit, Maps } from "./app_state";
 import type { ViewDocument } from "./document";
 import { changed, gestureEnded, redone, startHistory, undone } from "./history";
 import type { Slot } from "./models";
@@ -225,6 +225,35 @@ export function currentDocument(state: AppState): ViewDocument | undefined {
   if (!scene || !orbit || !home) return undefined;
   return { scene, orbit, home, edit: { map, density, smooth, apart, second } };
 }
+
+/** Shows another state of the same data, as one step that can be undone. */
+export function showDocument(state: AppState, { scene, orbit, home, edit }: ViewDocument): void {
+  const next = { ...edit, scene };
+  const same = JSON.stringify(edit) === JSON.stringify(editedPart(state.edit.value.present));
+  const { scene: shown } = state.edit.value.present;
+  state.home.value = home;
+  if (!same || !shown || !equals(SceneSchema, bare(scene), bare(shown))) {
+    state.edit.value = changed(state.edit.value, next);
+  }
+  state.orbit.value = orbit;
+}
+
+const editedPart = ({ map, density, smooth, apart, second }: Edit): Maps => ({
+  map,
+  density,
+  smooth,
+  apart,
+  second,
+});
+
+/** The scene without what its maps and the camera say again. */
+const bare = (scene: Scene): Scene => ({
+  ...scene,
+  camera: undefined,
+  layers: scene.layers.map((layer, i) =>
+    i > 0 ? layer : { ...layer, transferFunction: undefined, densityFunction: undefined },
+  ),
+});
 
 export function restoreDocument(state: AppState, document: ViewDocument): void {
   const { scene, orbit, home, edit } = document;

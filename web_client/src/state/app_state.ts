@@ -1,11 +1,13 @@
 import { computed, signal } from "@preact/signals";
 import type { Codec, Timings } from "../net/gen/volcast/v1/frame_pb";
-import type { Layer, Scene } from "../net/gen/volcast/v1/scene_pb";
+import type { Layer, RayModel, Scene } from "../net/gen/volcast/v1/scene_pb";
 import type {
   DatasetInfo,
   FieldInfo,
+  Person,
   Picked,
   Plan,
+  Role,
   ViewState,
   Welcome,
 } from "../net/gen/volcast/v1/session_pb";
@@ -15,10 +17,13 @@ import type { TransferFunction } from "../transfer/transfer_function";
 import type { Bounds, Orbit } from "../view/camera";
 import { length, subtract, type Vec3 } from "../view/vec3";
 import type { Measured } from "./accuracy";
+import type { Difference } from "./difference";
 import { type History, startHistory } from "./history";
+import type { ModelThumbnail } from "./model_thumbnails";
 import type { Recording } from "./recording";
 import type { Sample } from "./samples";
 import type { DescribedCode } from "./shader_actions";
+import { kUsualPlaying, type Playing } from "./time_steps";
 import { kUsualOptions, type ViewOptions } from "./view_options";
 
 export type ConnectionStatus =
@@ -82,6 +87,28 @@ export interface Notice {
   readonly text: string;
 }
 
+/** One's place in a view. */
+export interface Seat {
+  /** The view's name in the server. */
+  readonly id: string;
+  readonly role: Role;
+  /** The link that it was joined by; undefined: the view was opened here. */
+  readonly link: string | undefined;
+}
+
+/** A link that joins a view. */
+export interface ShareLink {
+  readonly role: Role;
+  readonly link: string;
+  /** When it stops working: Unix time, s. */
+  readonly expires: number;
+}
+
+export interface Steps {
+  readonly canUndo: boolean;
+  readonly canRedo: boolean;
+}
+
 export interface ViewportSize {
   readonly width: number;
   readonly height: number;
@@ -90,9 +117,22 @@ export interface ViewportSize {
 const point = (v: { x: number; y: number; z: number } | undefined): Vec3 =>
   v ? [v.x, v.y, v.z] : [0, 0, 0];
 
-/** Everything the parts share. They read and write these signals and do not know each other. */
-export function createAppState() {
-  const datasets = signal<readonly DatasetInfo[]>([]);
+/** What all views of a page have in common. */
+export function createSharedState() {
+  return {
+    connection: signal<ConnectionStatus>({ kind: "connecting" }),
+    welcome: signal<Welcome | undefined>(undefined),
+    datasets: signal<readonly DatasetInfo[]>([]),
+    options: signal<ViewOptions>(kUsualOptions),
+    notices: signal<readonly Notice[]>([]),
+  };
+}
+
+export type SharedState = ReturnType<typeof createSharedState>;
+
+/** Everything the parts of one view share. They read and write these signals and do not know each other. */
+export function createAppState(shared: SharedState = createSharedState()) {
+  const { datasets } = shared;
   const edit = signal<History<Edit>>(
     startHistory({ map: [], density: 1, second: undefined, scene: undefined }),
   );
@@ -118,9 +158,7 @@ export function createAppState() {
     return referenceLengthOf(b ? length(subtract(b.max, b.min)) : 0);
   });
   return {
-    connection: signal<ConnectionStatus>({ kind: "connecting" }),
-    welcome: signal<Welcome | undefined>(undefined),
-    datasets,
+    ...shared,
     /** The dataset that was asked for and is not shown yet. */
     pendingDataset: signal<string | undefined>(undefined),
     view: signal<{ readonly state: ViewState; readonly message: string } | undefined>(undefined),
@@ -139,8 +177,15 @@ export function createAppState() {
     recording: signal<Recording | undefined>(undefined),
     /** Of the newest pictures, while performance is shown. */
     samples: signal<readonly Sample[]>([]),
-    options: signal<ViewOptions>(kUsualOptions),
     edit,
+    /** One's place in the view, once it is open. */
+    seat: signal<Seat | undefined>(undefined),
+    /** Who is in the view; empty before the server said. */
+    people: signal<readonly Person[]>([]),
+    /** Links to the view that were made here, the newest of each role. */
+    links: signal<readonly ShareLink[]>([]),
+    /** What the server's history of the view allows; undefined: the page's own counts. */
+    serverSteps: signal<Steps | undefined>(undefined),
     refusal: signal<Refusal | undefined>(undefined),
     /** The settings that the server took last: what a refusal leaves on the screen. */
     accepted: signal<Edit | undefined>(undefined),
@@ -158,8 +203,21 @@ export function createAppState() {
     plan: signal<Plan | undefined>(undefined),
     /** What ways to draw a view are worth, where that was measured. */
     measured: signal<Measured | undefined>(undefined),
+    /** The same as plans with bounds know it, where that was asked. */
+    estimated: signal<Measured | undefined>(undefined),
+    /** What effects of the picture take, where that was measured. */
+    effectTimes: signal<Measured | undefined>(undefined),
+    /** The picture's difference from the reference is shown over it. */
+    comparing: signal(false),
+    difference: signal<Difference | undefined>(undefined),
+    /** What the end of the difference's scale stands for, in 1/255. */
+    differenceRange: signal(4),
+    /** What ray models make of the data as it is shown. */
+    thumbnails: signal<ReadonlyMap<RayModel, ModelThumbnail>>(new Map()),
+    /** The models whose thumbnails are in sight. */
+    pictured: signal<readonly RayModel[]>([]),
+    playing: signal<Playing>(kUsualPlaying),
     newestInput: signal(0n),
-    notices: signal<readonly Notice[]>([]),
     framesPerSecond: signal(0),
     latency: signal<{ readonly p50: number; readonly p95: number } | undefined>(undefined),
     /** The camera that shows everything in this viewport, as long as nobody moved it. */
@@ -175,12 +233,12 @@ const kMostNotices = 4;
 let lastNotice = 0;
 
 /** Shows a sentence; the same sentence is not shown twice. */
-export function notify(state: AppState, kind: Notice["kind"], text: string): void {
+export function notify(state: Pick<AppState, "notices">, kind: Notice["kind"], text: string): void {
   const others = state.notices.value.filter((n) => n.text !== text);
   lastNotice += 1;
   state.notices.value = [...others, { id: lastNotice, kind, text }].slice(-kMostNotices);
 }
 
-export function dismiss(state: AppState, id: number): void {
+export function dismiss(state: Pick<AppState, "notices">, id: number): void {
   state.notices.value = state.notices.value.filter((n) => n.id !== id);
 }

@@ -1,5 +1,6 @@
+import { create } from "@bufbuild/protobuf";
 import { describe, expect, it } from "vitest";
-import { ViewState } from "../net/gen/volcast/v1/session_pb";
+import { PersonSchema, Role, ViewState } from "../net/gen/volcast/v1/session_pb";
 import { createAppState, dismiss, notify, type PictureInfo } from "./app_state";
 import { badgeOf } from "./badge";
 
@@ -59,6 +60,18 @@ describe("badge", () => {
     state.connection.value = { kind: "lost", retryAt: 5000, reason: "closed" };
     expect(badgeOf(state, 2900)).toMatchObject({ label: "Reconnecting in 3 s" });
     expect(badgeOf(state, 9000)).toMatchObject({ label: "Reconnecting in 0 s" });
+  });
+
+  it("says that somebody else steers, and whether the picture is exact all the same", () => {
+    const state = connected();
+    state.seat.value = { id: "v", role: Role.WATCH, link: "signed" };
+    expect(badgeOf(state, 0)).toMatchObject({ kind: "watching", label: "Watching" });
+    state.people.value = [create(PersonSchema, { id: 1, name: "Ann", steers: true })];
+    state.picture.value = { ...picture, exact: true };
+    expect(badgeOf(state, 0)).toMatchObject({ kind: "watching", label: "Watching, exact" });
+    expect(badgeOf(state, 0).detail).toMatch(/^Ann steers this view\./);
+    state.connection.value = { kind: "lost", retryAt: 5000, reason: "closed" };
+    expect(badgeOf(state, 0).kind).toBe("reconnecting");
   });
 
   it("waits for data before the first picture", () => {

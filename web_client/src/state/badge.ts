@@ -1,5 +1,6 @@
 import { ViewState } from "../net/gen/volcast/v1/session_pb";
 import type { AppState } from "./app_state";
+import { whyNotSteering } from "./people";
 import { sentenceOf } from "./refusal";
 
 export type BadgeKind =
@@ -9,6 +10,7 @@ export type BadgeKind =
   | "live"
   | "refining"
   | "final"
+  | "watching"
   | "recovering"
   | "reconnecting"
   | "refused"
@@ -21,7 +23,10 @@ export interface Badge {
   readonly detail: string;
 }
 
-type Facts = Pick<AppState, "connection" | "view" | "picture" | "newestInput" | "refusal">;
+type Facts = Pick<
+  AppState,
+  "connection" | "view" | "picture" | "newestInput" | "refusal" | "people" | "seat" | "welcome"
+>;
 
 /** `exact`: the hash of the pixels here is that of the pixels in the server. */
 function lossless(exact: boolean | undefined): Badge {
@@ -62,6 +67,11 @@ export function badgeOf(state: Facts, now: number): Badge {
   const picture = state.picture.value;
   if (view?.state === ViewState.WAITING || !picture) {
     return { kind: "waiting", label: "Loading data", detail: view?.message ?? "" };
+  }
+  const steered = whyNotSteering(state);
+  if (steered !== undefined) {
+    const exact = picture.lossless && picture.final && picture.exact;
+    return { kind: "watching", label: exact ? "Watching, exact" : "Watching", detail: steered };
   }
   if (picture.inputSeq < state.newestInput.value) {
     return { kind: "moving", label: "Moving", detail: "A newer picture is on its way" };

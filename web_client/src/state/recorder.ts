@@ -22,9 +22,15 @@ export class Recorder {
   readonly #stages = new Ring<Stages>(kLatencies);
   readonly #drawn = new Ring(kLatencies);
 
+  readonly #timer: ReturnType<typeof setInterval>;
+
   constructor(state: AppState) {
     this.#state = state;
-    setInterval(() => this.#countFrames(), kWindowMs / 2);
+    this.#timer = setInterval(() => this.#countFrames(), kWindowMs / 2);
+  }
+
+  close(): void {
+    clearInterval(this.#timer);
   }
 
   /** A picture was drawn at `at`; `inputAt` where it is the first to show that input. */

@@ -19,23 +19,27 @@ export class SentOrbits {
 
 /**
  * Keeps `state.shownOrbit` at the camera of the picture on the screen, so that what is drawn over
- * the picture belongs to it. `opened` takes the camera that came with a view. Returns that.
+ * the picture belongs to it. `opened` takes the camera that came with a view. Returns that, and its end.
  */
-export function followShownOrbit(state: AppState): { opened(): void } {
+export function followShownOrbit(state: AppState): { opened(): void; end(): void } {
   const orbits = new SentOrbits();
   const note = (): void => {
     const orbit = state.orbit.value;
     if (orbit) orbits.sent(state.newestInput.value, orbit);
   };
-  effect(() => {
+  const stopNoting = effect(() => {
     state.newestInput.value;
     untracked(note);
   });
-  effect(() => {
+  const stopShowing = effect(() => {
     const shown = state.picture.value;
     if (!shown) return;
     const orbit = orbits.take(shown.inputSeq) ?? untracked(() => state.orbit.value);
     state.shownOrbit.value = orbit;
   });
-  return { opened: note };
+  const end = (): void => {
+    stopNoting();
+    stopShowing();
+  };
+  return { opened: note, end };
 }

@@ -14,6 +14,12 @@ const kPaths = {
   flip: "M10 3v14M7.5 6L3 14h4.5zM12.5 6L17 14h-4.5z",
   up: "M5 12.5l5-5 5 5",
   down: "M5 7.5l5 5 5-5",
+  beside: "M3 4h14v12H3zM10 4v12M13.5 8v4M11.5 10h4",
+  people:
+    "M7.5 9.5a2.7 2.7 0 1 0 0-5.4 2.7 2.7 0 0 0 0 5.4zM2.5 16c0-3 2-4.5 5-4.5s5 1.5 5 4.5M13 4.3a2.7 2.7 0 0 1 0 5M14.5 11.8c2 .5 3 1.9 3 4.2",
+  play: "M6.5 4l9 6-9 6z",
+  pause: "M7 4.5v11M13 4.5v11",
+  box: "M3.5 6.5L10 3l6.5 3.5v7L10 17l-6.5-3.5zM3.5 6.5L10 10l6.5-3.5M10 10v7",
   warning: "M10 3.2L17.5 16.5h-15zM10 8.2v4M10 14.3v.1",
 } as const;
 
@@ -33,20 +39,25 @@ interface IconButtonProps {
   readonly label: string;
   readonly onClick: () => void;
   readonly disabled?: boolean;
+  /** Why nothing happens when it is used, as a sentence: it can be reached, and says so. */
+  readonly held?: string | undefined;
   readonly shortcut?: string;
 }
 
 /** A square button whose name is shown when it is pointed at. */
-export function IconButton({ icon, label, onClick, disabled, shortcut }: IconButtonProps) {
+export function IconButton(props: IconButtonProps) {
+  const { icon, label, onClick, disabled, held, shortcut } = props;
+  const name = shortcut ? `${label} (${shortcut})` : label;
   return (
     <button
       type="button"
       class="icon-button"
       aria-label={label}
       aria-keyshortcuts={shortcut}
-      title={shortcut ? `${label} (${shortcut})` : label}
-      disabled={disabled}
-      onClick={onClick}
+      aria-disabled={held !== undefined ? "true" : undefined}
+      title={held !== undefined ? `${name}. ${held}` : name}
+      disabled={disabled && held === undefined}
+      onClick={held === undefined ? onClick : undefined}
     >
       <Icon name={icon} />
     </button>

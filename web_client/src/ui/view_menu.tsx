@@ -1,6 +1,7 @@
 import { useSignal } from "@preact/signals";
 import { useRef } from "preact/hooks";
 import type { AppState } from "../state/app_state";
+import { whyNotSteering } from "../state/people";
 import type { ViewOption } from "../state/view_options";
 import { alongAxis } from "../view/camera";
 import { Icon } from "./icons";
@@ -18,6 +19,7 @@ const kShown: readonly (readonly [ViewOption, string])[] = [
   ["scaleBar", "Scale bar"],
   ["legend", "Legend (L)"],
   ["box", "Bounding box (B)"],
+  ["handles", "Handles of clip planes"],
   ["hud", "Performance (H)"],
 ];
 
@@ -27,7 +29,7 @@ const kSides = [0, 1, 2].flatMap((axis) =>
 
 function Sides({ state }: Pick<Props, "state">) {
   return (
-    <fieldset class="view-sides">
+    <fieldset class="view-sides" disabled={whyNotSteering(state) !== undefined}>
       <legend>Look from</legend>
       {kSides.map(({ axis, negative }) => (
         <button
@@ -91,7 +93,9 @@ export function ViewMenu({ state, port }: Props) {
               </Check>
             </fieldset>
             <Sides state={state} />
-            <RecordForm state={state} port={port} begun={() => menu.current?.hidePopover()} />
+            {whyNotSteering(state) === undefined && (
+              <RecordForm state={state} port={port} begun={() => menu.current?.hidePopover()} />
+            )}
           </>
         )}
       </div>

@@ -12,7 +12,7 @@ interface Waiting {
 export class KeyframeNeeded extends Error {}
 
 /**
- * One VP9 or H.264 stream by WebCodecs, pictures in the order of their sequence. After a picture that
+ * One VP9 or H.264 stream by WebCodecs, pictures in the order of their ids. After a picture that
  * failed all are rejected with KeyframeNeeded until a keyframe comes.
  */
 export class StreamDecoder implements Decoder {
@@ -29,9 +29,9 @@ export class StreamDecoder implements Decoder {
     return new Promise((resolve, reject) => {
       try {
         const decoder = this.#ready(picture);
-        this.#waiting.set(picture.sequence, { resolve, reject });
+        this.#waiting.set(picture.id, { resolve, reject });
         const type = picture.keyframe ? "key" : "delta";
-        const { sequence: timestamp, payload: data } = picture;
+        const { id: timestamp, payload: data } = picture;
         decoder.decode(new EncodedVideoChunk({ type, timestamp, data }));
       } catch (error) {
         if (!(error instanceof KeyframeNeeded)) this.#fail(String(error));

@@ -26,10 +26,10 @@ function report(
   decodeMs: number,
   more: Partial<Pick<PictureReport, "reason" | "exact" | "keyframeNeeded">> = {},
 ): void {
-  const { view, sequence, receivedAt } = picture;
+  const { id, view, receivedAt } = picture;
   const queue = pictures.waiting + (streams.get(view)?.waiting ?? 0);
   const { reason = "", exact, keyframeNeeded = false } = more;
-  const about = { view, sequence, receivedAt, doneAt: now(), decodeMs, queue };
+  const about = { id, receivedAt, doneAt: now(), decodeMs, queue };
   tell({ kind: "report", report: { kind, ...about, reason, exact, keyframeNeeded } });
 }
 
@@ -54,8 +54,7 @@ function isExact(picture: EncodedPicture, decoded: ImageBitmap | VideoFrame): bo
   return pixels && xxh32(pixels) === picture.pixelsXxh32;
 }
 
-const isOlder = ({ view, sequence }: EncodedPicture): boolean =>
-  shown?.view === view && shown.sequence > sequence;
+const isOlder = ({ id }: EncodedPicture): boolean => shown !== undefined && shown.id > id;
 
 function streamOf(view: number): StreamDecoder {
   let stream = streams.get(view);

@@ -2,8 +2,9 @@ import type { Codec } from "../net/gen/volcast/v1/frame_pb";
 
 /** One encoded picture on its way to the screen. Times: milliseconds since the epoch. */
 export interface EncodedPicture {
+  /** Grows with every picture that arrives. */
+  readonly id: number;
   readonly view: number;
-  readonly sequence: number;
   readonly codec: Codec;
   /** In pixels; what a decoder adds at the right and at the bottom is not shown. */
   readonly width: number;
@@ -25,8 +26,7 @@ export type ToWorker =
 /** What became of a picture. `dropped`: a newer one came before this one was decoded. */
 export interface PictureReport {
   readonly kind: "drawn" | "dropped" | "failed";
-  readonly view: number;
-  readonly sequence: number;
+  readonly id: number;
   readonly receivedAt: number;
   readonly doneAt: number;
   readonly decodeMs: number;
