@@ -80,12 +80,16 @@ void addClients(CLI::App& command, LoadOptions& options) {
     command
         .add_option("--acks", settings.acks,
                     "full: each frame, the server paces; one: one frame under way; none: nothing "
-                    "but the socket slows frames. one and none pin JPEG quality 90, full size")
+                    "but the socket slows frames. one and none pin JPEG quality and full size")
         ->transform(CLI::CheckedTransformer(
             std::map<std::string, load::Acks>{{"full", load::Acks::kFull},
                                               {"one", load::Acks::kOneCredit},
                                               {"none", load::Acks::kNone}}))
         ->default_str("full");
+    command
+        .add_option("--quality", settings.quality,
+                    "Of JPEG, pinned; none: as the server paces, at most 90")
+        ->check(CLI::Range(30U, 100U));
     command.add_option("--dataset", settings.dataset, "What views show; none: the first listed");
     command.add_option("--width", settings.width, "Pixels")
         ->check(CLI::Range(1U, 8192U))

@@ -103,7 +103,7 @@ void ScriptedClient::openView() {
 
 void ScriptedClient::opened(const v1::ViewOpened& message) {
     inputSeq_ = std::max(inputSeq_, message.input_seq());
-    if (stage_.settings.acks != Acks::kFull) pin();
+    if (stage_.settings.acks != Acks::kFull || stage_.settings.quality) pin();
     if (stage_.settings.acks == Acks::kNone) ackBlindly(connection_);
     if (opens_ && view_.members > 1) {
         sharing_ = true;
@@ -209,12 +209,14 @@ void ScriptedClient::ackBlindly(std::uint64_t connection) {
     stage_.loop.at(Clock::now() + kBlindAck, [this, connection] { ackBlindly(connection); });
 }
 
-/// What a view is opened with, for good.
+/// The quality that is wanted; and where acks do not say how fast frames may come, the rest as it
+/// was at first, for good.
 void ScriptedClient::pin() {
     v1::ClientMessage message;
     message.mutable_set_pins()->set_view(kView);
     v1::Pins& pins = *message.mutable_set_pins()->mutable_pins();
-    pins.set_quality(90);
+    pins.set_quality(stage_.settings.quality.value_or(90));
+    if (stage_.settings.acks == Acks::kFull) return send(message);
     pins.set_scale(1);
     pins.set_frames_per_s(240);
     pins.set_full_accuracy(true);

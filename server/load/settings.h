@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,7 @@ struct LoadSettings {
     /// others join by its link and watch. 0: one a client.
     unsigned views = 0;
     Acks acks = Acks::kFull;
+    std::optional<std::uint32_t> quality;  ///< Of JPEG, pinned; empty: the server's choice.
     double rampUpS = 1;     ///< Clients connect one after the other over so long; not measured.
     double durationS = 10;  ///< Measured, after that.
     double inputsPerSecond = 30;

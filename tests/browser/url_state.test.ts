@@ -106,6 +106,26 @@ describe("the address", () => {
     expect(await picture(client)).toBe(other);
   });
 
+  it("may be a link, which is joined in its place and left by going back", async () => {
+    const ann = await open();
+    await ann.after(() => ann.drag(40, 40));
+    await ann.page.getByRole("button", { name: "Share", exact: true }).click();
+    await ann.page.getByRole("button", { name: "Make a link" }).click();
+    const link = await ann.page.getByRole("textbox", { name: "Link to watch" }).inputValue();
+    const ben = await open();
+    await ben.page.waitForURL(/#view=/);
+    const own = await picture(ben);
+    await ben.page.evaluate((hash) => {
+      location.hash = hash;
+    }, new URL(link).hash);
+    await ben.watched();
+    expect(await picture(ben)).not.toBe(own);
+    await ben.page.goBack();
+    await ben.settled();
+    expect(await picture(ben)).toBe(own);
+    await ben.after(() => ben.drag(20, 0));
+  });
+
   it("that cannot be read is said, and so is data that is not there", async () => {
     const odd = await open(`${server.url}#view=zAAAA`);
     await odd.page.locator(".notice", { hasText: "cannot be read" }).waitFor();

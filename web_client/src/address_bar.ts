@@ -39,8 +39,8 @@ function show(pane: Pane, place: Place): void {
   }
   const { document } = place;
   const dataset = document.scene.layers[0]?.dataset;
-  const joined = state.seat.value?.link !== undefined;
-  if (joined || state.layer.value?.dataset !== dataset) conversation.open(wishFor(document));
+  if (state.seat.value?.link !== undefined) conversation.leave(document);
+  else if (state.layer.value?.dataset !== dataset) conversation.open(wishFor(document));
   else showDocument(state, document);
 }
 
@@ -67,10 +67,11 @@ export class AddressBar {
     window.addEventListener("popstate", () => void this.#popped());
   }
 
-  /** The whole address of what is shown now. */
+  /** An address of what is shown now that leads into nobody's view. */
   async url(): Promise<string> {
-    const address = this.#read();
-    const fragment = address ? await writeAddress(address) : location.hash;
+    const documents = this.#panes.all.value.map(({ state }) => currentDocument(state));
+    const places = documents.flatMap((document) => (document ? [{ document }] : []));
+    const fragment = await writeAddress({ places, linked: this.#panes.linked.value });
     return `${location.origin}${location.pathname}${fragment}`;
   }
 

@@ -182,6 +182,7 @@ TEST(Load, WrongOptionsAreNamed) {
         {{"load", "--duration", "0"}, "--duration"},
         {{"load", "--min-fps", "-1"}, "--min-fps"},
         {{"load", "--acks", "some"}, "some"},
+        {{"load", "--quality", "101"}, "--quality"},
         {{"load", "ws://127.0.0.1:1", "--max-growth-mb", "1"}, "--max-growth-"},
         {{"load", "ftp://127.0.0.1"}, "ftp://127.0.0.1"},
         {{"load", "ws://127.0.0.1:99999"}, "99999"},

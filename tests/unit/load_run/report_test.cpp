@@ -11,7 +11,9 @@ using testing::IsEmpty;
 
 /// Ten seconds of two views that move, 8 and 10 frames/s, with a watcher in one who gets 4.
 Outcome twoViews() {
-    Outcome outcome{.seconds = 10, .views = 2};
+    Outcome outcome;
+    outcome.seconds = 10;
+    outcome.views = 2;
     Stats& orbit = outcome.kinds["orbit"];
     orbit.clients = 2;
     orbit.framesByClient = {80, 100};

@@ -215,6 +215,21 @@ describe("a view's conversation", () => {
     expect(view.number).toBe(1);
   });
 
+  it("leaves others where they are", () => {
+    const { view, sent, opened, steering, said, state } = setUp();
+    view.join("signed");
+    opened(1, 4n);
+    steering(1, 8);
+    sent.length = 0;
+    view.leave(document);
+    opened(2, 5n);
+    expect(sent.map((b) => b.case)).toEqual(["openView", "closeView"]);
+    expect(sent[1]?.value).toMatchObject({ view: 1 });
+    expect(said).toEqual(["joined", "restored"]);
+    expect(state.seat.value?.link).toBeUndefined();
+    expect(state.people.value).toEqual([]);
+  });
+
   it("closes what it has open", () => {
     const { view, sent, opened } = setUp();
     view.welcomed(false);

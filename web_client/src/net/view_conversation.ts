@@ -21,7 +21,7 @@ import { ViewPeople } from "./view_people";
 import { ViewQuestions } from "./view_questions";
 import { ViewUpdates } from "./view_updates";
 import type { Wire } from "./wire";
-import { kAnything, type Wish, wishToJoin, wishToStay } from "./wish";
+import { kAnything, type Wish, wishFor, wishToJoin, wishToStay } from "./wish";
 
 /** What a view's conversation asks of whoever shows the view. */
 export interface ViewEvents {
@@ -118,9 +118,10 @@ export class ViewConversation {
     this.#want(wishToJoin(link));
   }
 
-  /** Goes on with a copy of the view, where nobody else is. */
-  leave(): void {
-    this.#want(wishToStay(this.#events.current()));
+  /** Goes on where nobody else is: with a copy of the view, or with something else. */
+  leave(document?: ViewDocument): void {
+    const wish = document ? wishFor(document) : wishToStay(this.#events.current());
+    this.#want({ ...wish, alone: true });
   }
 
   /** A part of the state changed; the newest state is sent when the server can use it. */
@@ -279,7 +280,8 @@ export class ViewConversation {
     const { scene, view, inputSeq } = message;
     const before = this.#view;
     // Others go along: the view that they are in shows what was opened.
-    const along = !opening.shown && !opening.link && isShared(this.#state) && before !== undefined;
+    const apart = opening.alone || opening.shown || opening.link !== undefined;
+    const along = !apart && isShared(this.#state) && before !== undefined;
     this.#opening = undefined;
     this.#wish = undefined;
     this.#state.pendingDataset.value = undefined;

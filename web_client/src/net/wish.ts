@@ -9,6 +9,8 @@ export interface Wish {
   readonly shown: boolean;
   /** Joins a view that is there. */
   readonly link?: string | undefined;
+  /** Whoever is in the view that is left does not go along. */
+  readonly alone?: boolean | undefined;
   /** As it was saved; instead of a document. */
   readonly scene?: Scene | undefined;
 }

@@ -62,24 +62,24 @@ export function PeopleList({ state, port }: Props) {
           <Row key={person.id} state={state} port={port} person={person} />
         ))}
       </ul>
-      {!steers(state) && (
-        <div class="person-actions">
-          <ControlButton state={state} port={port} />
+      <div class="person-actions">
+        {!steers(state) && <ControlButton state={state} port={port} />}
+        {!steers(state) && (
           <button type="button" class="text-button" onClick={port.addView}>
             Look around beside it
           </button>
-        </div>
-      )}
+        )}
+        {joined && (
+          <button type="button" class="text-button" onClick={port.leave}>
+            Leave with a copy
+          </button>
+        )}
+      </div>
       {!steers(state) && (
         <p class="hint">
           The picture follows whoever steers. A view of your own beside it does too, as long as
           cameras go together.
         </p>
-      )}
-      {joined && (
-        <button type="button" class="text-button" onClick={port.leave}>
-          Leave with a copy
-        </button>
       )}
       {me?.role === Role.CONTROL && state.people.value.length === 1 && (
         <p class="hint">Nobody else is here. A link below brings others in.</p>
