@@ -117,6 +117,21 @@ TEST_F(MeterTest, APictureOnRefiningGridsComesToTheSameAsACandidateOverAllPixels
     EXPECT_EQ(must(inParts(picture)).reference.rays, 0U);
 }
 
+TEST_F(MeterTest, TimesOfAPictureNeedNoReference) {
+    const Job job{.scene = withCandidate(job_.scene, job_.candidate),
+                  .size = job_.size,
+                  .aim = Aim::kTime,
+                  .frames = 3};
+    const std::uint64_t before = renderer_->counters().framesDrawn;
+    const Measurement measured = must(inParts(job));
+    EXPECT_EQ(renderer_->counters().framesDrawn, before + 4) << "one that warms up";
+    EXPECT_EQ(measured.frames, 3);
+    EXPECT_GT(measured.medianMs, 0.0);
+    EXPECT_LE(measured.minMs, measured.maxMs);
+    EXPECT_EQ(measured.all.pixels, 0U);
+    EXPECT_TRUE(measured.off.empty());
+}
+
 TEST_F(MeterTest, AGridWithoutPixelsIsRefused) {
     Job picture{
         .scene = job_.scene, .size = job_.size, .aim = Aim::kPicture, .grid = {.endRow = 0}};
