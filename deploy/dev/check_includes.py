@@ -36,9 +36,9 @@ ALLOWED = {
     "renderer/reference": MODEL + ["renderer/reference"],
     "renderer/pick": MODEL + ["renderer/plan", "renderer/reference", "renderer/pick"],
     "renderer/plan": MODEL + ["renderer/plan"],
-    "renderer/mesh": DRAWING + ["renderer/mesh", "shaders/shared"],
-    "renderer/volume": DRAWING + ["renderer/volume", "renderer/mesh/combine_state",
-                                  "shaders/shared"],
+    "renderer/drawing": DRAWING + ["renderer/drawing"],
+    "renderer/mesh": DRAWING + ["renderer/drawing", "renderer/mesh", "shaders/shared"],
+    "renderer/volume": DRAWING + ["renderer/drawing", "renderer/volume", "shaders/shared"],
     "renderer/scene": DRAWING + ["renderer/mesh", "renderer/volume", "renderer/scene",
                                  "shaders/shared"],
     **{part: MODEL + ["renderer/plan", MEASUREMENT, *MESSAGES] for part in MESSAGES},
@@ -59,8 +59,8 @@ ALLOWED = {
                                          "renderer/worker/fault_names", "server/import"],
     "tests": [""],
 }
-GL_HOMES = ["renderer/gpu", "renderer/shading", "renderer/mesh", "renderer/volume",
-            "renderer/scene", "tests"]
+GL_HOMES = ["renderer/gpu", "renderer/shading", "renderer/drawing", "renderer/mesh",
+            "renderer/volume", "renderer/scene", "tests"]
 HOMES = {  # what an angle include names -> who may name it
     r"boost/(asio|beast)": ["server/net", "tests/support", "tests/e2e", "tests/bench"],
     r"glslang/": ["renderer/user_shader"],

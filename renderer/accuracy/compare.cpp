@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace volcast::accuracy {
 namespace {
@@ -12,8 +13,7 @@ constexpr double kWordStep = 1.0 / 65535.0;
 
 class Sum {
 public:
-    void add(const glm::dvec4& off) {
-        const double most = std::max({off.r, off.g, off.b, off.a});
+    void add(const glm::dvec4& off, double most) {
         squares_ += glm::dot(off, off);
         max_ = std::max(max_, most);
         if (most > kByteStep) ++over255_;
@@ -41,6 +41,8 @@ Difference compare(const reference::Picture& truth, std::span<const glm::ivec2> 
                    std::span<const float> rgba, int width) {
     Sum all;
     Sum inner;
+    std::vector<float> largest;
+    largest.reserve(pixels.size());
     for (std::size_t i = 0; i < pixels.size(); ++i) {
         const std::size_t at = 4 * (static_cast<std::size_t>(pixels[i].y) * width + pixels[i].x);
         glm::dvec4 off;
@@ -48,10 +50,12 @@ Difference compare(const reference::Picture& truth, std::span<const glm::ivec2> 
             off[c] = std::abs(static_cast<double>(rgba[at + c]) - truth.pixels[i][c]);
             if (std::isnan(off[c])) off[c] = std::numeric_limits<double>::infinity();
         }
-        all.add(off);
-        if (truth.nearEdge[i] == 0) inner.add(off);
+        const double most = std::max({off.r, off.g, off.b, off.a});
+        largest.push_back(static_cast<float>(most));
+        all.add(off, most);
+        if (truth.nearEdge[i] == 0) inner.add(off, most);
     }
-    return {.all = all.errors(), .inner = inner.errors()};
+    return {.all = all.errors(), .inner = inner.errors(), .off = std::move(largest)};
 }
 
 }  // namespace volcast::accuracy

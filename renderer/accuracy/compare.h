@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "renderer/accuracy/measurement.h"
 #include "renderer/reference/reference.h"
@@ -9,7 +10,8 @@ namespace volcast::accuracy {
 
 struct Difference {
     Errors all;
-    Errors inner;  ///< Without the pixels that `truth` has as near an edge.
+    Errors inner;            ///< Without the pixels that `truth` has as near an edge.
+    std::vector<float> off;  ///< By pixel: of the channel that is off most.
 };
 
 /// Compares `pixels` of a picture with the truth. `rgba`: linear, premultiplied, 4 a pixel, all of

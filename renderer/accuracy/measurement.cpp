@@ -1,5 +1,6 @@
 #include "renderer/accuracy/measurement.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -36,6 +37,19 @@ scene::Scene withCandidate(const scene::Scene& scene, const Candidate& candidate
     changed.layers.at(candidate.layer).integrator = candidate.integrator;
     changed.layers.at(candidate.layer).evaluator = candidate.evaluator;
     return changed;
+}
+
+std::vector<glm::ivec2> gridPixels(scene::PictureSize size, const Grid& grid) {
+    std::vector<glm::ivec2> pixels;
+    const int twice = 2 * grid.step;
+    const int first = (grid.firstRow + grid.step - 1) / grid.step * grid.step;
+    for (int y = first; y < std::min(grid.endRow, size.y); y += grid.step) {
+        const bool coarse = grid.refines && y % twice == 0;
+        for (int x = coarse ? grid.step : 0; x < size.x; x += coarse ? twice : grid.step) {
+            pixels.emplace_back(x, y);
+        }
+    }
+    return pixels;
 }
 
 std::vector<glm::ivec2> samplePixels(scene::PictureSize size, std::uint64_t count) {

@@ -29,11 +29,30 @@ struct Candidate {
     friend bool operator==(const Candidate&, const Candidate&) = default;
 };
 
+/// What is to be found out.
+enum class Aim {
+    kCandidate,  ///< What one way to draw one layer is worth, and what it costs.
+    kPicture,    ///< Where the picture is off, drawn as the scene asks.
+    kEstimates,  ///< What plans with bounds go by; little is drawn for it.
+    kTime,       ///< What the picture takes, drawn as the scene asks; `frames` at least 1.
+};
+
+/// Pixels whose column and row are multiples of `step`, but for those of 2 * step where it
+/// `refines` a coarser grid; in rows from `firstRow` to before `endRow`.
+struct Grid {
+    int step = 1;
+    bool refines = false;
+    int firstRow = 0, endRow = 0;
+    friend bool operator==(const Grid&, const Grid&) = default;
+};
+
 /// What is to be measured.
 struct Job {
     scene::Scene scene;
     scene::PictureSize size{512};
-    Candidate candidate = {};
+    Aim aim = Aim::kCandidate;
+    Grid grid = {};            ///< To compare, where the aim is the picture.
+    Candidate candidate = {};  ///< Where it is the aim, as is what follows; frames of times, too.
     int frames = 0;            ///< Draws to time, after one that warms up; 0: errors alone.
     std::uint64_t pixels = 0;  ///< To compare, spread over the picture; 0: all.
     bool countsSteps = false;  ///< In one more frame, which is not timed.
@@ -58,6 +77,10 @@ struct Measurement {
     ReferenceEffort reference = {};  ///< Zeros where its picture, or its tree, was known before.
     plan::Evaluator evaluator = plan::Evaluator::kMeshWalk;  ///< What drew the layer.
     std::string integrator;                                  ///< As in plans.
+    /// Of the picture: by pixel of its grid, row by row, how far the channel is off that is off
+    /// most.
+    std::vector<float> off = {};
+    plan::SceneEvidence estimates = {};
 };
 
 /// All ways that the registry has for the visible layers of `scene`, in its order: integrators from
@@ -68,6 +91,9 @@ std::vector<Candidate> candidates(const scene::Scene& scene,
 
 /// `scene` with one layer drawn as `candidate` says, and exactly wherever no integrator is named.
 scene::Scene withCandidate(const scene::Scene& scene, const Candidate& candidate);
+
+/// (column, row), row by row.
+std::vector<glm::ivec2> gridPixels(scene::PictureSize size, const Grid& grid);
 
 /// At most `count` different pixels (column, row), spread evenly and the same each time; 0 or more
 /// than there are: all, row by row.

@@ -14,7 +14,8 @@ namespace {
 /// No view of a client has these numbers, nor has the warm-up (0).
 constexpr std::uint64_t kView = ~std::uint64_t{0};
 constexpr std::uint64_t kViewInParts = kView - 1;
-constexpr std::size_t kTruthsKept = 4;
+constexpr std::size_t kTruthsKept = 4;  // However large; more while they are small.
+constexpr std::size_t kPixelsKept = std::size_t{1} << 20;
 constexpr double kTurnDegrees = 1e-3;
 /// A call of advance() waits so long for the reference: little beside a picture.
 constexpr std::chrono::milliseconds kPatience{5};
@@ -65,8 +66,8 @@ void Meter::forget(const std::string& dataset) {
 }
 
 Meter::Question Meter::questionOf(const scene::Scene& scene, scene::PictureSize size,
-                                  std::uint64_t pixels) {
-    return {.scene = essence(scene), .size = size, .pixels = samplePixels(size, pixels)};
+                                  std::vector<glm::ivec2> pixels) {
+    return {.scene = essence(scene), .size = size, .pixels = std::move(pixels)};
 }
 
 Meter::Datasets Meter::datasetsOf(const scene::Scene& scene) const {
@@ -106,7 +107,12 @@ Meter::Truth* Meter::keep(Question question, Answer answer) {
                                  .treeSeconds = answer.treeSeconds};
     truths_.push_front(
         {.question = std::move(question), .picture = std::move(answer.picture), .effort = effort});
-    if (truths_.size() > kTruthsKept) truths_.pop_back();
+    std::size_t kept = 0;
+    std::size_t pixelsKept = 0;
+    std::erase_if(truths_, [&](const Truth& truth) {
+        pixelsKept += truth.question.pixels.size();
+        return ++kept > kTruthsKept && pixelsKept > kPixelsKept;
+    });
     return &truths_.front();
 }
 
@@ -141,13 +147,22 @@ Result<Meter::Truth*> Meter::searchFor(const Question& question) {
 
 Result<double> Meter::cellsPerRay(const scene::Scene& scene, scene::PictureSize size,
                                   std::uint64_t pixels) {
-    const auto truth = truthOf(questionOf(scene, size, pixels));
+    const auto truth = truthOf(questionOf(scene, size, samplePixels(size, pixels)));
     if (!truth) return truth.error();
     return static_cast<double>((*truth)->picture.piecesVisited) /
            static_cast<double>((*truth)->question.pixels.size());
 }
 
 Result<Meter::Run> Meter::begin(const Job& job, std::uint64_t view) {
+    if (job.aim == Aim::kPicture) {
+        auto pixels = gridPixels(job.size, job.grid);
+        if (pixels.empty()) return fail(ErrorCode::kInvalidArgument, "a grid without pixels");
+        return Run{.job = job,
+                   .view = view,
+                   .scene = job.scene,
+                   .question = questionOf(job.scene, job.size, std::move(pixels))};
+    }
+    if (job.aim == Aim::kTime) return Run{.job = job, .view = view, .scene = job.scene};
     if (job.candidate.layer >= job.scene.layers.size()) {
         return fail(ErrorCode::kInvalidArgument, "layer " + std::to_string(job.candidate.layer) +
                                                      " of a scene with " +
@@ -156,15 +171,15 @@ Result<Meter::Run> Meter::begin(const Job& job, std::uint64_t view) {
     return Run{.job = job,
                .view = view,
                .scene = withCandidate(job.scene, job.candidate),
-               .question = questionOf(job.scene, job.size, job.pixels)};
+               .question = questionOf(job.scene, job.size, samplePixels(job.size, job.pixels))};
 }
 
 Result<bool> Meter::drawNext(Run& run) {
     const Job& job = run.job;
     const int last = job.frames + (job.countsSteps ? 1 : 0);
     if (run.drawn > last) return false;
-    const bool compared = run.drawn == 0;
-    const bool timed = !compared && run.drawn <= job.frames;
+    const bool compared = run.drawn == 0 && job.aim != Aim::kTime;
+    const bool timed = run.drawn > 0 && run.drawn <= job.frames;
     scene::Scene scene = run.scene;
     if (timed) scene.camera = scene::orbit(scene.camera, run.drawn * kTurnDegrees);
     if (compared) run.rgba.resize(std::size_t{4} * job.size.x * job.size.y);
@@ -172,9 +187,11 @@ Result<bool> Meter::drawNext(Run& run) {
         renderer_.render(run.view, scene, job.size,
                          {.rgba32f = compared ? std::span{run.rgba} : std::span<float>{},
                           .complete = true,
-                          .countsSteps = !compared && !timed});
+                          .countsSteps = !compared && !timed},
+                         run.evidence);
     if (!frame) return frame.error();
     ++run.drawn;
+    if (job.aim == Aim::kPicture || (job.aim == Aim::kTime && !timed)) return true;
     if (compared) {
         const plan::LayerPlan& plan = frame->plan.layers.at(job.candidate.layer);
         run.measured.evaluator = plan.evaluator;
@@ -192,7 +209,7 @@ Result<bool> Meter::drawNext(Run& run) {
     return true;
 }
 
-Measurement Meter::finish(Run& run, Truth& truth) {
+Measurement Meter::finish(Run& run, Truth* truth) {
     Measurement measured = std::move(run.measured);
     if (!run.times.empty()) {
         std::ranges::sort(run.times);
@@ -201,13 +218,15 @@ Measurement Meter::finish(Run& run, Truth& truth) {
         measured.maxMs = run.times.back();
         measured.frames = run.job.frames;
     }
-    const std::vector<glm::ivec2>& pixels = truth.question.pixels;
-    const Difference off = compare(truth.picture, pixels, run.rgba, run.job.size.x);
+    if (truth == nullptr) return measured;
+    const std::vector<glm::ivec2>& pixels = truth->question.pixels;
+    Difference off = compare(truth->picture, pixels, run.rgba, run.job.size.x);
     measured.all = off.all;
     measured.inner = off.inner;
+    if (run.job.aim == Aim::kPicture) measured.off = std::move(off.off);
     measured.cellsPerRay =
-        static_cast<double>(truth.picture.piecesVisited) / static_cast<double>(pixels.size());
-    measured.reference = std::exchange(truth.effort, {});
+        static_cast<double>(truth->picture.piecesVisited) / static_cast<double>(pixels.size());
+    measured.reference = std::exchange(truth->effort, {});
     return measured;
 }
 
@@ -220,26 +239,30 @@ Result<Measurement> Meter::measure(const Job& job) {
     if (!drawn) return drawn.error();
     const auto truth = truthOf(run->question);
     if (!truth) return truth.error();
-    return finish(*run, **truth);
+    return finish(*run, *truth);
 }
 
-Result<std::optional<Measurement>> Meter::advance(const Job& job) {
+Result<std::optional<Measurement>> Meter::advance(const Job& job,
+                                                  const plan::SceneEvidence& evidence) {
     if (!run_ || run_->job != job) {
         stop();
         auto run = begin(job, kViewInParts);
         if (!run) return std::move(run).error();
         run_ = *std::move(run);
+        run_->evidence = evidence;
     }
     Truth* none = nullptr;
     Result<Truth*> truth = none;
-    if (run_->drawn > 0) {  // The picture to compare is drawn; times wait until no thread is busy.
+    if (run_->drawn > 0 &&
+        job.aim !=
+            Aim::kTime) {  // The picture to compare is drawn; times wait until no thread is busy.
         truth = searchFor(run_->question);
         if (truth && *truth == none) return std::nullopt;
     }
     const Result<bool> drawn = truth ? drawNext(*run_) : Result<bool>{truth.error()};
     if (drawn && *drawn) return std::nullopt;
     std::optional<Measurement> measured;
-    if (drawn) measured = finish(*run_, **truth);
+    if (drawn) measured = finish(*run_, *truth);
     stop();
     if (!drawn) return drawn.error();
     return measured;

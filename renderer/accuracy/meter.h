@@ -35,7 +35,9 @@ public:
     /// reference. Empty: to be called again, with the same job; another one begins anew.
     ///
     /// Errors: as measure().
-    Result<std::optional<Measurement>> advance(const Job& job);
+    /// `evidence`: as plans take it; for pictures alone.
+    Result<std::optional<Measurement>> advance(const Job& job,
+                                               const plan::SceneEvidence& evidence = {});
     /// Ends what advance() has begun.
     void stop();
 
@@ -80,8 +82,9 @@ private:
     struct Run {
         Job job;
         std::uint64_t view = 0;
-        scene::Scene scene;  ///< The candidate's.
-        Question question;
+        scene::Scene scene;  ///< As it is drawn.
+        plan::SceneEvidence evidence = {};
+        Question question = {};
         std::vector<float> rgba = {};
         std::string drawnWith = {};  ///< The layer in whose draw the candidate's is.
         std::vector<double> times = {};
@@ -91,7 +94,7 @@ private:
     using Datasets = std::map<std::string, const data::Dataset*>;
 
     static Question questionOf(const scene::Scene& scene, scene::PictureSize size,
-                               std::uint64_t pixels);
+                               std::vector<glm::ivec2> pixels);
     [[nodiscard]] Datasets datasetsOf(const scene::Scene& scene) const;
     static Result<Answer> ask(const Question& question, reference::Bodies bodies,
                               const Datasets& datasets, const std::atomic<bool>* cancelled);
@@ -104,7 +107,8 @@ private:
     static Result<Run> begin(const Job& job, std::uint64_t view);
     /// Draws the next picture; false: there was none left.
     Result<bool> drawNext(Run& run);
-    static Measurement finish(Run& run, Truth& truth);
+    /// `truth`: null where nothing is compared.
+    static Measurement finish(Run& run, Truth* truth);
 
     scene::Renderer& renderer_;
     reference::Bodies bodies_;

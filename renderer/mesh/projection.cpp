@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "renderer/mesh/combine_state.h"
+#include "renderer/drawing/combine_state.h"
 #include "renderer/mesh/mesh_buffers.h"
 #include "renderer/mesh/projection_cache.h"
 #include "renderer/mesh/shared.h"
@@ -45,8 +45,8 @@ void drawEach(const DrawInputs& inputs, int count, int vertices) {
 }
 
 /// Draws the cells into the blended shares.
-void drawCells(const DrawInputs& inputs, const gpu::Program& program, const CombineState& combine,
-               const ProjectionCache& cache) {
+void drawCells(const DrawInputs& inputs, const gpu::Program& program,
+               const drawing::CombineState& combine, const ProjectionCache& cache) {
     cache.shares().begin({.blend = combine.blend, .depth = combine.depth});
     cache.shares().clearColour(0, glm::vec4{combine.neutral});
     program.use();
@@ -56,7 +56,7 @@ void drawCells(const DrawInputs& inputs, const gpu::Program& program, const Comb
 }
 
 /// Draws what levels cut out of cells into the picture.
-Result<void> drawLevels(const DrawInputs& inputs, const CombineState& combine,
+Result<void> drawLevels(const DrawInputs& inputs, const drawing::CombineState& combine,
                         ProjectionCache& cache) {
     const LevelTraits traits{.valuesAt = valuesAt(inputs.field),
                              .densityAt = valuesAt(inputs.density),
@@ -85,7 +85,7 @@ shading::Recipe projectionRecipe(const ProjectionTraits& traits,
                                        {"kInterval", traits.interval},
                                        {"kClipPlanes", traits.clipPlanes},
                                        {"kClipsAtStart", traits.clipsAtStart},
-                                       {"kSorted", stateOf(row.combine).sorted},
+                                       {"kSorted", drawing::stateOf(row.combine).sorted},
                                        {"kSides", static_cast<int>(traits.sides)},
                                        {"kPsiTableSide", shading::kPsiTableSide},
                                        {"kCellsAnInstance", kCellsAnInstance}});
@@ -126,7 +126,8 @@ std::unique_ptr<ProjectionState> ProjectionState::create() {
 
 Result<void> drawProjection(const DrawInputs& inputs, ProjectionState& state) {
     ProjectionCache& cache = ProjectionCache::of(state);
-    const CombineState& combine = stateOf(scene::row(inputs.layer->model).combine);
+    const drawing::CombineState& combine =
+        drawing::stateOf(scene::row(inputs.layer->model).combine);
     if (combine.combine == scene::Combine::kNearest) return drawLevels(inputs, combine, cache);
     const ProjectionTraits traits = traitsOf(inputs);
     const auto cells =

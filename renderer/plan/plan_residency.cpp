@@ -44,15 +44,17 @@ void limitSamples(LayerPlan& plan, const Matter& matter) {
     plan.stepWorld = smallest;
 }
 
-/// Ranges of bricks are not asked for where that could take too many rounds.
+/// Ranges of bricks are not asked for where that could take too many rounds, nor by code.
 void limitSkipping(LayerPlan& plan, const Matter& matter) {
     const glm::ivec3 voxels = matter.summary.voxels;
-    if (std::max({voxels.x, voxels.y, voxels.z}) <= kMaxSkippedSide) return;
+    const bool code = !matter.layer.shader.code.empty();
+    if (!code && std::max({voxels.x, voxels.y, voxels.z}) <= kMaxSkippedSide) return;
     for (Effect& effect : plan.effects) {
         if (effect.name != kEmptyBricks || !effect.on) continue;
         effect.on = false;
-        effect.reason = "the volume has more than " + std::to_string(kMaxSkippedSide) +
-                        " voxels along an axis: no ranges are asked for";
+        effect.reason = code ? "bricks that hold nothing are not loaded, but rays ask at each step"
+                             : "the volume has more than " + std::to_string(kMaxSkippedSide) +
+                                   " voxels along an axis: no ranges are asked for";
     }
 }
 

@@ -65,12 +65,24 @@ void planChannels(LayerPlan& plan, const Layer& layer) {
                   : "one channel is drawn");
 }
 
-void planBricks(LayerPlan& plan, const Matter& matter) {
+bool isOneBrick(const Matter& matter) {
     const glm::ivec3 intervals = matter.summary.voxels - 1;
-    const bool several =
-        std::max({intervals.x, intervals.y, intervals.z}) > data::Volume::kBrickSize;
-    if (!several) {
+    return std::max({intervals.x, intervals.y, intervals.z}) <= data::Volume::kBrickSize;
+}
+
+/// Of channels that absorb together; one with an interval may add nothing anywhere.
+void planBricksOfChannels(LayerPlan& plan, const Matter& matter) {
+    const bool everywhere = matter.extinction.min > 0.0F;
+    add(plan, kEmptyBricks, !everywhere,
+        everywhere ? "a channel's map has extinction everywhere in the data's range"
+                   : "a brick is passed over where no channel's map has extinction");
+}
+
+void planBricks(LayerPlan& plan, const Matter& matter) {
+    if (isOneBrick(matter)) {
         add(plan, kEmptyBricks, false, "the volume is a single brick");
+    } else if (plan.has(kChannels) && absorbs(matter.layer.model)) {
+        planBricksOfChannels(plan, matter);
     } else if (plan.has(kInterval)) {
         add(plan, kEmptyBricks, true, "a brick without values in the interval is passed over");
     } else if (!absorbs(matter.layer.model)) {
@@ -124,12 +136,27 @@ void planLight(LayerPlan& plan, const Layer& volume) {
                                  : "lit from the eye");
 }
 
+/// What code shows of a value is not known before it runs; but of some values it is not asked.
+void planBricksOfCode(LayerPlan& plan, const Matter& matter) {
+    if (isOneBrick(matter)) {
+        add(plan, kEmptyBricks, false, "the volume is a single brick");
+    } else if (plan.has(kInterval)) {
+        add(plan, kEmptyBricks, true,
+            "a brick without values in the interval is passed over, whatever the code shows");
+    } else if (plan.has(kVoxelsWithoutValue)) {
+        add(plan, kEmptyBricks, true, "a brick without any value is passed over");
+    } else {
+        add(plan, kEmptyBricks, false,
+            "nobody knows what the code shows of a brick's values; an interval would tell");
+    }
+}
+
 /// A user's code in the place of the map.
 void planUserShader(LayerPlan& plan, const Matter& matter, const scene::Camera& camera) {
     plan.evaluator = Evaluator::kVolumeMarch;
     planCode(plan, matter);
     planStep(plan, matter, camera);
-    add(plan, kEmptyBricks, false, "nobody knows what the code shows of a brick's values");
+    planBricksOfCode(plan, matter);
 }
 
 }  // namespace

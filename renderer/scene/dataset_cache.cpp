@@ -46,6 +46,24 @@ std::string keyOf(const FieldUse& use, int timeStep) {
     return key + "|" + use.field->name;
 }
 
+/// Names of the channels that a layer shows, whatever is in them.
+std::vector<std::string> namesOf(const Layer& layer) {
+    if (layer.channels.empty()) return {layer.field};
+    std::vector<std::string> names;
+    for (const ChannelMap* shown : shownChannels(layer)) names.push_back(shown->field);
+    return names;
+}
+
+std::string joined(const std::vector<std::string>& names) {
+    std::string key;
+    for (const std::string& name : names) key += std::to_string(name.size()) + ":" + name;
+    return key;
+}
+
+bool isTricubic(const Layer& layer) {
+    return layer.sampling == Sampling::kTricubic;
+}
+
 }  // namespace
 
 CachedDataset::CachedDataset(data::Dataset dataset, std::uint64_t generation)
@@ -123,17 +141,44 @@ Result<const volume::ChannelsGpu*> CachedDataset::channels(gpu::Device& device, 
                                                            std::uint64_t frame) {
     const auto& volume = std::get<data::Volume>(data_);
     std::vector<const data::Channel*> wanted;
-    std::string key;
-    for (const ChannelMap* shown : shownChannels(layer)) {
-        wanted.push_back(&named(volume.channels, shown->field));
-        key += std::to_string(shown->field.size()) + ":" + shown->field;
-    }
+    const std::vector<std::string> names = namesOf(layer);
+    for (const std::string& name : names) wanted.push_back(&named(volume.channels, name));
+    const std::string key = joined(names);
     auto kept = channelSets_.find(key);
     if (kept == channelSets_.end()) {
         trim(channelSets_, frame);
         auto uploaded = volume::ChannelsGpu::upload(device, volume, wanted);
         if (!uploaded) return uploaded.error();
         kept = channelSets_.emplace(key, Kept<volume::ChannelsGpu>{std::move(*uploaded)}).first;
+    }
+    kept->second.frame = frame;
+    return &kept->second.part;
+}
+
+std::shared_ptr<const volume::ChannelRanges> CachedDataset::ranges(const std::string& name,
+                                                                   const Layer& layer) {
+    const auto& volume = std::get<data::Volume>(data_);
+    const data::Channel& channel = named(volume.channels, name);
+    auto& known = ranges_[(isTricubic(layer) ? "cubic|" : "|") + channel.name];
+    if (known == nullptr) {
+        known = std::make_shared<const volume::ChannelRanges>(
+            volume::channelRanges(volume, channel, isTricubic(layer)));
+    }
+    return known;
+}
+
+Result<const volume::RangeTable*> CachedDataset::rangeTable(gpu::Device& device, const Layer& layer,
+                                                            std::uint64_t frame) {
+    const std::vector<std::string> names = namesOf(layer);
+    const std::string key = (isTricubic(layer) ? "cubic|" : "|") + joined(names);
+    auto kept = rangeTables_.find(key);
+    if (kept == rangeTables_.end()) {
+        trim(rangeTables_, frame);
+        std::vector<std::shared_ptr<const volume::ChannelRanges>> channels;
+        for (const std::string& name : names) channels.push_back(ranges(name, layer));
+        auto uploaded = volume::RangeTable::upload(device, channels);
+        if (!uploaded) return uploaded.error();
+        kept = rangeTables_.emplace(key, Kept<volume::RangeTable>{std::move(*uploaded)}).first;
     }
     kept->second.frame = frame;
     return &kept->second.part;

@@ -11,6 +11,7 @@
 #include "renderer/scene/layer_fields.h"
 #include "renderer/scene/mesh_part.h"
 #include "renderer/scene/scene.h"
+#include "renderer/volume/channel_ranges.h"
 #include "renderer/volume/channels.h"
 #include "renderer/volume/march.h"
 
@@ -41,6 +42,15 @@ public:
     Result<const volume::RawChannel*> rawChannel(gpu::Device& device, const std::string& name,
                                                  std::uint64_t frame);
 
+    /// What is known of the blocks of the channel of that name (empty: the first) as `layer`
+    /// samples it, found out when first asked for.
+    std::shared_ptr<const volume::ChannelRanges> ranges(const std::string& name,
+                                                        const Layer& layer);
+    /// The same of all channels that `layer` shows, as rays read it. Errors: as
+    /// volume::RangeTable::upload.
+    Result<const volume::RangeTable*> rangeTable(gpu::Device& device, const Layer& layer,
+                                                 std::uint64_t frame);
+
     /// The channels that `layer` shows together. Errors: as volume::ChannelsGpu::upload.
     Result<const volume::ChannelsGpu*> channels(gpu::Device& device, const Layer& layer,
                                                 std::uint64_t frame);
@@ -59,6 +69,9 @@ private:
     std::map<std::string, Kept<volume::ChannelGpu>> channels_;
     std::map<std::string, Kept<volume::ChannelsGpu>> channelSets_;  ///< By their names.
     std::map<std::string, Kept<volume::RawChannel>> rawChannels_;
+    // By names and how they are sampled.
+    std::map<std::string, std::shared_ptr<const volume::ChannelRanges>> ranges_;
+    std::map<std::string, Kept<volume::RangeTable>> rangeTables_;
 };
 
 }  // namespace volcast::scene

@@ -11,6 +11,19 @@
 namespace volcast::scene {
 namespace {
 
+/// Brings what rays pass over empty space by, if anything. `shown`: of each channel.
+Result<void> prepareSkipping(DrawContext& context, LayerDraw& draw,
+                             std::vector<volume::ShownChannel> shown) {
+    if (volume::readsRanges(*draw.layer, *draw.plan)) {
+        const auto ranges = draw.dataset->rangeTable(*context.device, *draw.layer, context.frame);
+        if (!ranges) return ranges.error();
+        draw.ranges = *ranges;
+    }
+    if (!volume::passesOverEmptySpace(*draw.layer, *draw.plan)) return {};
+    draw.emptySpace = &draw.state->emptySpace;
+    return draw.state->emptySpace.set(*context.device, std::move(shown));
+}
+
 /// Brings several channels and their maps.
 Result<void> prepareChannels(DrawContext& context, LayerDraw& draw) {
     const float gain = draw.layer->model == RayModel::kVolume ? draw.layer->gain : 0.0F;
@@ -29,7 +42,25 @@ Result<void> prepareChannels(DrawContext& context, LayerDraw& draw) {
     const auto channels = draw.dataset->channels(*context.device, *draw.layer, context.frame);
     if (!channels) return channels.error();
     draw.channels = *channels;
-    return {};
+    std::vector<volume::ShownChannel> shown;
+    if (volume::passesOverEmptySpace(*draw.layer, *draw.plan)) {
+        const auto maps = shownChannels(*draw.layer);
+        for (std::size_t i = 0; i < maps.size(); ++i) {
+            shown.push_back({.ranges = draw.dataset->ranges(maps[i]->field, *draw.layer),
+                             .shown = shownValues(drawn[i])});
+        }
+    }
+    return prepareSkipping(context, draw, std::move(shown));
+}
+
+/// What is known of the layer's own channel.
+Result<void> prepareOwnSkipping(DrawContext& context, LayerDraw& draw) {
+    std::vector<volume::ShownChannel> shown;
+    if (volume::passesOverEmptySpace(*draw.layer, *draw.plan)) {
+        shown.push_back({.ranges = draw.dataset->ranges(draw.layer->field, *draw.layer),
+                         .shown = shownValues(*draw.layer, *draw.plan, draw.dataset->summary())});
+    }
+    return prepareSkipping(context, draw, std::move(shown));
 }
 
 Result<void> prepareRawChannels(DrawContext& context, LayerDraw& draw) {
@@ -42,7 +73,7 @@ Result<void> prepareRawChannels(DrawContext& context, LayerDraw& draw) {
         if (!channel) return channel.error();
         draw.rawChannels.push_back(*channel);
     }
-    return {};
+    return prepareOwnSkipping(context, draw);
 }
 
 Result<void> prepareBricks(DrawContext& context, const Frame& frame, LayerDraw& draw) {
@@ -67,14 +98,14 @@ Result<void> prepareBricks(DrawContext& context, const Frame& frame, LayerDraw& 
 }
 
 /// The pixels that rays through voxels may change.
-PixelBox coverOfRays(const Frame& frame, const LayerDraw& draw, bool passesOver) {
+PixelBox coverOfRays(const Frame& frame, const LayerDraw& draw) {
     // An X-ray is white where nothing is.
     if (draw.layer->model == RayModel::kXray)
         return {.low = {0, 0}, .size = {frame.size.x, frame.size.y}};
     const auto& volume = std::get<data::Volume>(draw.dataset->data());
     const std::array<glm::vec3, 2> all{glm::vec3{0.0F}, glm::vec3{volume.size - 1}};
     return coverOf(frame.scene->camera, frame.size, volume,
-                   passesOver ? draw.state->emptySpace.box() : all);
+                   draw.emptySpace != nullptr ? draw.emptySpace->box() : all);
 }
 
 }  // namespace
@@ -88,22 +119,18 @@ Result<void> prepareVoxels(DrawContext& context, const Frame& frame, LayerDraw& 
         draw.dataset->channel(*context.device, *draw.layer, context.frame);
     if (!channel) return channel.error();
     draw.channel = *channel;
-    if (!volume::passesOverEmptySpace(*draw.layer, *draw.plan)) return {};
-    return draw.state->emptySpace.set(*context.device, (*channel)->ranges(),
-                                      shownValues(*draw.layer, *draw.plan, draw.dataset->summary()),
-                                      draw.layer->sampling == Sampling::kTricubic);
+    return prepareOwnSkipping(context, draw);
 }
 
 Result<void> drawVoxels(const DrawContext& context, const Frame& frame, const LayerDraw& draw,
                         const gpu::Target& target) {
-    const bool passesOver =
-        draw.channel != nullptr && volume::passesOverEmptySpace(*draw.layer, *draw.plan);
     volume::DrawInputs inputs{.device = context.device,
                               .programs = context.programs,
                               .channel = draw.channel,
                               .bricks = draw.pool != nullptr ? &draw.state->bricks : nullptr,
                               .pool = draw.pool,
-                              .emptySpace = passesOver ? &draw.state->emptySpace : nullptr,
+                              .emptySpace = draw.emptySpace,
+                              .ranges = draw.ranges,
                               .volume = &std::get<data::Volume>(draw.dataset->data()),
                               .layer = draw.layer,
                               .plan = draw.plan,
@@ -111,6 +138,9 @@ Result<void> drawVoxels(const DrawContext& context, const Frame& frame, const La
                               .filterInHardware = context.filterInHardware,
                               .constants = draw.constants,
                               .target = &target};
+    const PixelBox cover = coverOfRays(frame, draw);
+    inputs.cover = {cover.low, cover.size};
+    if (cover.size.x == 0 || cover.size.y == 0) return {};
     if (draw.code) {
         return volume::drawUserCode(inputs, {.texts = draw.code->texts,
                                              .channels = draw.rawChannels,
@@ -129,9 +159,6 @@ Result<void> drawVoxels(const DrawContext& context, const Frame& frame, const La
                                       draw.state->slices);
         default: break;
     }
-    const PixelBox cover = coverOfRays(frame, draw, passesOver);
-    inputs.cover = {cover.low, cover.size};
-    if (cover.size.x == 0 || cover.size.y == 0) return {};
     return volume::drawMarch(inputs);
 }
 

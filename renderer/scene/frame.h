@@ -25,8 +25,10 @@ struct LayerDraw {
     const mesh::FieldGpu* density = nullptr;
     std::vector<const mesh::FieldGpu*> otherFields;  // That its code reads besides `field`.
     const volume::ChannelGpu* channel = nullptr;
-    const volume::ChannelsGpu* channels = nullptr;  // Instead, where several are drawn together.
-    const volume::BrickPool* pool = nullptr;        // Instead, of voxels in bricks.
+    const volume::ChannelsGpu* channels = nullptr;   // Instead, where several are drawn together.
+    const volume::BrickPool* pool = nullptr;         // Instead, of voxels in bricks.
+    const volume::EmptySpace* emptySpace = nullptr;  // Of these two the one that rays read.
+    const volume::RangeTable* ranges = nullptr;
     std::vector<const volume::RawChannel*> rawChannels;  // That its code reads, its own first.
     std::optional<UserCode> code;
     std::vector<float> levels;  // Of an isosurface.

@@ -299,6 +299,9 @@ Result<void> DeviceRenderer::sendBlocks(Frame& frame) {
         blocks[draw.index] =
             layerBlock(frame.size, frame.depths, *frame.scene, *draw.layer, draw.dataset->data(),
                        draw.dataset->summary(), draw.plan->stepWorld);
+        if (draw.emptySpace == nullptr) continue;
+        blocks[draw.index].shownLow = glm::vec4(draw.emptySpace->box()[0], 0.0F);
+        blocks[draw.index].shownHigh = glm::vec4(draw.emptySpace->box()[1], 0.0F);
     }
     return frame.view->blocks.set(device_, frame.scene->background, blocks);
 }

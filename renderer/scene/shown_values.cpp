@@ -24,6 +24,15 @@ void add(volume::ShownValues& shown, float first, float last) {
     }
 }
 
+/// What of `shown` is in an interval.
+volume::ShownValues within(const volume::ShownValues& shown, data::Range interval) {
+    volume::ShownValues inside;
+    for (const glm::vec2& part : shown) {
+        add(inside, std::max(part.x, interval.min), std::min(part.y, interval.max));
+    }
+    return inside;
+}
+
 volume::ShownValues shownByModel(const Layer& layer, const data::DatasetSummary& summary) {
     if (runsUserCode(layer)) return kAllValues;
     if (layer.model == RayModel::kVolume || layer.model == RayModel::kXray) {
@@ -62,10 +71,13 @@ volume::ShownValues shownValues(const Layer& layer, const plan::LayerPlan& plan,
     volume::ShownValues shown = shownByModel(layer, summary);
     if (!plan.has(plan::kInterval)) return shown;
     const ScaleFunction scale{layer.scale, findField(summary, layer.field)->range};
-    const float low = scale.ofPoint(layer.interval->min), high = scale.ofPoint(layer.interval->max);
-    volume::ShownValues inside;
-    for (const glm::vec2& part : shown) add(inside, std::max(part.x, low), std::min(part.y, high));
-    return inside;
+    return within(shown, {.min = scale.ofPoint(layer.interval->min),
+                          .max = scale.ofPoint(layer.interval->max)});
+}
+
+volume::ShownValues shownValues(const DrawnChannel& channel) {
+    const volume::ShownValues shown = absorbingValues(channel.map);
+    return channel.interval ? within(shown, *channel.interval) : shown;
 }
 
 }  // namespace volcast::scene

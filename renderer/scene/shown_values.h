@@ -4,6 +4,7 @@
 
 #include "renderer/data/dataset.h"
 #include "renderer/plan/plan.h"
+#include "renderer/scene/channel_table.h"
 #include "renderer/scene/scene.h"
 #include "renderer/volume/empty_space.h"
 
@@ -22,5 +23,8 @@ volume::ShownValues absorbingValues(const data::TransferFunction& map);
 /// layer's interval.
 volume::ShownValues shownValues(const Layer& layer, const plan::LayerPlan& plan,
                                 const data::DatasetSummary& summary);
+
+/// The same of one of several channels that are drawn together and absorb.
+volume::ShownValues shownValues(const DrawnChannel& channel);
 
 }  // namespace volcast::scene

@@ -10,7 +10,6 @@ using glm::vec4;
 
 #include "shaders/shared/bindings.glsl"
 #include "shaders/shared/brick_pool.glsl"
-#include "shaders/shared/empty_space.glsl"
 #include "shaders/shared/layer_block.glsl"
 #include "shaders/shared/psi_table.glsl"
 #include "shaders/shared/slice_block.glsl"

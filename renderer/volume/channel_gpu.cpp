@@ -2,7 +2,6 @@
 
 #include "renderer/scene/scale.h"
 #include "renderer/shading/shared.h"
-#include "renderer/volume/block_ranges.h"
 #include "renderer/volume/march.h"
 #include "renderer/volume/voxel_floats.h"
 
@@ -58,30 +57,6 @@ Result<gpu::Buffer> uploadBlocks(gpu::Device& device, const data::Volume& volume
     return buffer;
 }
 
-/// As rays see them.
-ChannelRanges rangesOf(const data::Volume& volume, const data::Channel& channel,
-                       const scene::ScaleFunction& scale) {
-    const auto ranges = [&](int around) {
-        std::vector<glm::vec2> found = blockRanges(volume, channel, around);
-        for (glm::vec2& range : found) {
-            if (range.x <= range.y) range = {scale.ofData(range.x), scale.ofData(range.y)};
-        }
-        return found;
-    };
-    return {.grid = blockGrid(volume.size), .cells = ranges(0), .support = ranges(1)};
-}
-
-/// Two floats a block, the smallest and the largest value of all within kRangeReach of it.
-Result<gpu::Buffer> uploadRanges(gpu::Device& device, std::span<const glm::vec2> ranges,
-                                 glm::ivec3 grid) {
-    static_assert(kRangeReach == kRangeBlock);  // One block more on all sides.
-    const std::vector<glm::vec2> reached = joinedAround(ranges, grid);
-    const auto bytes = std::as_bytes(std::span{reached});
-    return gpu::Buffer::create(
-        device, {.bytes = bytes.size(), .texels = gpu::TexelFormat::kR32F, .label = "block ranges"},
-        bytes);
-}
-
 }  // namespace
 
 Result<ChannelGpu> ChannelGpu::upload(gpu::Device& device, const data::Volume& volume,
@@ -102,13 +77,6 @@ Result<ChannelGpu> ChannelGpu::upload(gpu::Device& device, const data::Volume& v
         if (!voxels) return voxels.error();
         made.voxels_ = std::move(*voxels);
     }
-    made.ranges_ = std::make_shared<const ChannelRanges>(rangesOf(volume, channel, scale));
-    for (const bool tricubic : {false, true}) {
-        const auto& ranges = tricubic ? made.ranges_->support : made.ranges_->cells;
-        Result<gpu::Buffer> reached = uploadRanges(device, ranges, made.ranges_->grid);
-        if (!reached) return reached.error();
-        made.reached_[tricubic ? 1 : 0] = std::move(*reached);
-    }
     return made;
 }
 
@@ -118,10 +86,6 @@ void ChannelGpu::bind() const noexcept {
     } else {
         blocks_.bindTexels(shading::shared::kVoxelUnit);
     }
-}
-
-void ChannelGpu::bindRanges(bool tricubic) const noexcept {
-    reached_[tricubic ? 1 : 0].bindTexels(shading::shared::kBrickUnit);
 }
 
 }  // namespace volcast::volume

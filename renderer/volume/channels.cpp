@@ -40,29 +40,6 @@ void sliceOf(const data::Volume& volume, const data::Channel& channel, int slice
     for (float& value : floats) value = scale.ofData(value);
 }
 
-Result<gpu::Buffer> uploadRanges(gpu::Device& device, const data::Volume& volume,
-                                 std::span<const data::Channel* const> channels) {
-    std::vector<glm::vec4> texels;
-    for (std::size_t c = 0; c < channels.size(); ++c) {
-        const std::vector<glm::vec2> ranges =
-            joinedAround(blockRanges(volume, *channels[c], 1), blockGrid(volume.size));
-        texels.resize(2 * ranges.size(), glm::vec4{0.0F});
-        const scene::ScaleFunction scale{scene::Scale{}, channels[c]->range};
-        for (std::size_t i = 0; i < ranges.size(); ++i) {
-            const bool some = ranges[i].x <= ranges[i].y;
-            const auto component = static_cast<int>(c);
-            texels[2 * i][component] = some ? scale.ofData(ranges[i].x) : ranges[i].x;
-            texels[2 * i + 1][component] = some ? scale.ofData(ranges[i].y) : ranges[i].y;
-        }
-    }
-    const auto bytes = std::as_bytes(std::span{texels});
-    return gpu::Buffer::create(device,
-                               {.bytes = bytes.size(),
-                                .texels = gpu::TexelFormat::kRgba32F,
-                                .label = "block ranges of channels"},
-                               bytes);
-}
-
 }  // namespace
 
 Result<ChannelsGpu> ChannelsGpu::upload(gpu::Device& device, const data::Volume& volume,
@@ -86,17 +63,13 @@ Result<ChannelsGpu> ChannelsGpu::upload(gpu::Device& device, const data::Volume&
         const auto sent = texture->upload(slice, 1, std::as_bytes(std::span{texels}));
         if (!sent) return sent.error();
     }
-    Result<gpu::Buffer> ranges = uploadRanges(device, volume, channels);
-    if (!ranges) return ranges.error();
     ChannelsGpu made;
-    made.ranges_ = std::move(*ranges);
     made.voxels_ = std::move(*texture);
     return made;
 }
 
 void ChannelsGpu::bind() const noexcept {
     voxels_.bind(shading::shared::kVoxelUnit);
-    ranges_.bindTexels(shading::shared::kBrickUnit);
 }
 
 Result<void> drawChannels(const DrawInputs& inputs, const ChannelsGpu& channels) {
@@ -106,6 +79,7 @@ Result<void> drawChannels(const DrawInputs& inputs, const ChannelsGpu& channels)
                                        {"kFilterInHardware", inputs.filterInHardware},
                                        {"kEarlyStop", inputs.plan->has(plan::kEarlyStop)},
                                        {"kSkipBricks", inputs.plan->has(plan::kEmptyBricks)},
+                                       {"kByDistance", inputs.emptySpace != nullptr},
                                        {"kShaded", inputs.plan->has(plan::kLight)},
                                        {"kInterval", inputs.plan->has(plan::kInterval)},
                                        {"kJitters", inputs.plan->has(plan::kJitter)},
@@ -122,7 +96,9 @@ Result<void> drawChannels(const DrawInputs& inputs, const ChannelsGpu& channels)
     inputs.target->begin(gpu::PassState{.blend = gpu::Blend::kOver});
     (*program)->use();
     channels.bind();
-    inputs.device->draw(gpu::Primitive::kTriangles, 3);
+    if (inputs.emptySpace != nullptr) inputs.emptySpace->bind();
+    if (inputs.ranges != nullptr) inputs.ranges->bind();
+    drawCover(inputs);
     return {};
 }
 

@@ -23,7 +23,6 @@ public:
 
 private:
     gpu::Texture3D voxels_;
-    gpu::Buffer ranges_;  // See block_ranges.h; 2 texels a block: smallest values, largest values.
 };
 
 /// Draws a layer's channels over what is in the target; `inputs.channel` is not looked at. Their

@@ -17,7 +17,7 @@ Result<void> drawCrossSections(const DrawInputs& inputs) {
     inputs.target->begin({.depth = gpu::DepthTest::kNearest});
     (*program)->use();
     bindField(inputs);
-    inputs.device->draw(gpu::Primitive::kTriangles, 3);
+    drawCover(inputs);
     return {};
 }
 

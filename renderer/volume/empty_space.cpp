@@ -1,9 +1,8 @@
 #include "renderer/volume/empty_space.h"
 
 #include <algorithm>
-#include <cstring>
+#include <functional>
 
-#include "renderer/plan/plan.h"
 #include "renderer/shading/shared.h"
 #include "renderer/volume/block_ranges.h"
 
@@ -95,6 +94,18 @@ std::array<glm::vec3, 2> shownBox(std::span<const std::uint8_t> shows, glm::ivec
     return {glm::vec3(kRangeBlock * low), glm::vec3(kRangeBlock * (high + 1))};
 }
 
+/// 1 where a block of any channel has a value that shows, else 0.
+std::vector<std::uint8_t> showingAny(std::span<const ShownChannel> channels) {
+    std::vector<std::uint8_t> any;
+    for (const ShownChannel& channel : channels) {
+        const ChannelRanges& known = *channel.ranges;
+        std::vector<std::uint8_t> one = showingBlocks(known.ranges, channel.shown, known.overshoot);
+        if (!any.empty()) std::ranges::transform(any, one, one.begin(), std::bit_or{});
+        any = std::move(one);
+    }
+    return any;
+}
+
 }  // namespace
 
 bool shows(const ShownValues& shown, glm::vec2 range) {
@@ -120,19 +131,13 @@ std::vector<std::uint8_t> distancesToShowing(std::span<const std::uint8_t> shows
     return Distances{std::move(distances), grid}.made();
 }
 
-Result<void> EmptySpace::set(gpu::Device& device, std::shared_ptr<const ChannelRanges> ranges,
-                             ShownValues shown, bool tricubic) {
-    if (buffer_.valid() && ranges == ranges_ && shown == shown_ && tricubic == tricubic_) return {};
-    const glm::ivec3 grid = ranges->grid;
-    const auto shows = tricubic ? showingBlocks(ranges->support, shown, plan::kTricubicOvershoot)
-                                : showingBlocks(ranges->cells, shown, 0.0F);
-    const std::vector<std::uint8_t> apart = distancesToShowing(shows, grid);
-    box_ = shownBox(shows, grid);
-    constexpr std::size_t kHead = shading::shared::kEmptySpaceHead;
-    std::vector<std::uint32_t> words(kHead + (apart.size() + 3) / 4);
-    std::memcpy(words.data(), box_.data(), sizeof(box_));
-    std::memcpy(words.data() + kHead, apart.data(), apart.size());
-    const auto bytes = std::as_bytes(std::span{words});
+Result<void> EmptySpace::set(gpu::Device& device, std::vector<ShownChannel> channels) {
+    if (buffer_.valid() && channels == channels_) return {};
+    const glm::ivec3 grid = channels.front().ranges->grid;
+    const std::vector<std::uint8_t> shows = showingAny(channels);
+    std::vector<std::uint8_t> apart = distancesToShowing(shows, grid);
+    apart.resize((apart.size() + 3) / 4 * 4);  // Four to a word.
+    const auto bytes = std::as_bytes(std::span{apart});
     if (buffer_.valid() && buffer_.bytes() == bytes.size()) {
         buffer_.update(0, bytes);
     } else {
@@ -145,9 +150,8 @@ Result<void> EmptySpace::set(gpu::Device& device, std::shared_ptr<const ChannelR
         if (!made) return made.error();
         buffer_ = std::move(*made);
     }
-    ranges_ = std::move(ranges);
-    shown_ = std::move(shown);
-    tricubic_ = tricubic;
+    box_ = shownBox(shows, grid);
+    channels_ = std::move(channels);
     return {};
 }
 

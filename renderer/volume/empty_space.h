@@ -10,24 +10,24 @@
 
 #include "renderer/base/result.h"
 #include "renderer/gpu/buffer.h"
+#include "renderer/volume/channel_ranges.h"
 
 namespace volcast::volume {
 
 /// Values that can show: closed intervals [x, y], ascending, none touching the next.
 using ShownValues = std::vector<glm::vec2>;
 
-/// What is known of the blocks of one channel (block_ranges.h), as rays see its values.
-struct ChannelRanges {
-    glm::ivec3 grid{0};              ///< Blocks along each axis.
-    std::vector<glm::vec2> cells;    ///< Of trilinear and nearest values.
-    std::vector<glm::vec2> support;  ///< Of the voxels that tricubic values are sums of.
+/// The values of one channel that can show.
+struct ShownChannel {
+    std::shared_ptr<const ChannelRanges> ranges;
+    ShownValues shown;
+    friend bool operator==(const ShownChannel&, const ShownChannel&) = default;
 };
 
 /// Whether a value of `range` shows.
 bool shows(const ShownValues& shown, glm::vec2 range);
 
-/// 1 for each range that has a value which shows, else 0. `overshoot`: how far interpolation leaves
-/// a range to both sides, of its extent.
+/// 1 for each range that has a value which shows, else 0. `overshoot`: as in ChannelRanges.
 std::vector<std::uint8_t> showingBlocks(std::span<const glm::vec2> ranges, const ShownValues& shown,
                                         float overshoot);
 
@@ -36,15 +36,14 @@ std::vector<std::uint8_t> showingBlocks(std::span<const glm::vec2> ranges, const
 /// along each axis show nothing. At most 255, also where there is none.
 std::vector<std::uint8_t> distancesToShowing(std::span<const std::uint8_t> shows, glm::ivec3 grid);
 
-/// The blocks of a layer's channel that show nothing, on the GPU. Read by
+/// The blocks where nothing shows of any of a layer's channels, on the GPU. Read by
 /// shaders/volume/empty_space.glsl.
 class EmptySpace {
 public:
-    /// Finds out anew what shows, unless all is as before.
+    /// Finds out anew what shows of one or more channels of one grid, unless all is as before.
     ///
     /// Errors: kOutOfGpuMemory.
-    Result<void> set(gpu::Device& device, std::shared_ptr<const ChannelRanges> ranges,
-                     ShownValues shown, bool tricubic);
+    Result<void> set(gpu::Device& device, std::vector<ShownChannel> channels);
 
     void bind() const noexcept;
     /// Grid coordinates of the box outside of which nothing shows, its lowest corner and its
@@ -52,9 +51,7 @@ public:
     [[nodiscard]] const std::array<glm::vec3, 2>& box() const noexcept { return box_; }
 
 private:
-    std::shared_ptr<const ChannelRanges> ranges_;
-    ShownValues shown_;
-    bool tricubic_ = false;
+    std::vector<ShownChannel> channels_;
     std::array<glm::vec3, 2> box_{glm::vec3{0.0F}, glm::vec3{0.0F}};
     gpu::Buffer buffer_;
 };

@@ -51,7 +51,7 @@ void bindField(const DrawInputs& inputs) {
         inputs.bricks->bind(*inputs.pool);
     } else {
         inputs.channel->bind();
-        inputs.channel->bindRanges(inputs.layer->sampling == scene::Sampling::kTricubic);
+        if (inputs.ranges != nullptr) inputs.ranges->bind();
     }
 }
 

@@ -106,10 +106,31 @@ shading::Recipe marchRecipe(const MarchTraits& traits, std::vector<shading::Cons
     return recipe;
 }
 
+namespace {
+
+/// What code shows of an extreme is not known either, so that the interval alone tells.
+bool followsExtremes(const scene::Layer& layer) {
+    return layer.shader.code.empty() &&
+           (layer.model == scene::RayModel::kMip || layer.model == scene::RayModel::kMinip);
+}
+
+bool skipsWhole(const plan::LayerPlan& plan) {
+    return plan.has(plan::kEmptyBricks) && !plan.has(plan::kBricks);
+}
+
+}  // namespace
+
 bool passesOverEmptySpace(const scene::Layer& layer, const plan::LayerPlan& plan) {
-    const bool extreme =
-        layer.model == scene::RayModel::kMip || layer.model == scene::RayModel::kMinip;
-    return plan.has(plan::kEmptyBricks) && !plan.has(plan::kBricks) && !extreme;
+    return skipsWhole(plan) && !followsExtremes(layer);
+}
+
+bool readsRanges(const scene::Layer& layer, const plan::LayerPlan& plan) {
+    return skipsWhole(plan) && followsExtremes(layer);
+}
+
+void drawCover(const DrawInputs& inputs) {
+    const gpu::Scissor scissor{{inputs.cover.x, inputs.cover.y}, {inputs.cover.z, inputs.cover.w}};
+    inputs.device->draw(gpu::Primitive::kTriangles, 3);
 }
 
 Result<void> drawMarch(const DrawInputs& inputs) {
@@ -122,8 +143,7 @@ Result<void> drawMarch(const DrawInputs& inputs) {
     (*program)->use();
     bindField(inputs);
     if (inputs.emptySpace != nullptr) inputs.emptySpace->bind();
-    const gpu::Scissor scissor{{inputs.cover.x, inputs.cover.y}, {inputs.cover.z, inputs.cover.w}};
-    inputs.device->draw(gpu::Primitive::kTriangles, 3);
+    drawCover(inputs);
     return {};
 }
 

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <array>
-#include <memory>
 #include <vector>
 
 #include "renderer/base/result.h"
@@ -12,6 +10,7 @@
 #include "renderer/plan/plan.h"
 #include "renderer/shading/program_cache.h"
 #include "renderer/volume/bricked_layer.h"
+#include "renderer/volume/channel_ranges.h"
 #include "renderer/volume/empty_space.h"
 #include "renderer/volume/field.h"
 #include "renderer/volume/raw_channel.h"
@@ -27,20 +26,12 @@ public:
                                      const data::Channel& channel);
 
     void bind() const noexcept;
-    /// Of volume/ranges.glsl, for values that are interpolated so.
-    void bindRanges(bool tricubic) const noexcept;
     [[nodiscard]] VoxelTexels texels() const noexcept { return texels_; }
-    [[nodiscard]] const std::shared_ptr<const ChannelRanges>& ranges() const noexcept {
-        return ranges_;
-    }
 
 private:
     VoxelTexels texels_ = VoxelTexels::kTexture;
     gpu::Buffer blocks_;     // Of all but kTexture.
     gpu::Texture3D voxels_;  // Of kTexture.
-    std::array<gpu::Buffer, 2>
-        reached_;  // See block_ranges.h; 2 floats a block; [1]: of tricubic values.
-    std::shared_ptr<const ChannelRanges> ranges_;
 };
 
 /// True where texture() interpolates float32 voxels in full precision. GPUs commonly keep 8 bits
@@ -55,7 +46,8 @@ struct DrawInputs {
     const ChannelGpu* channel = nullptr;   ///< Or these three, where the plan says so:
     const BrickedLayer* bricks = nullptr;  ///< prepare()d for this picture.
     const BrickPool* pool = nullptr;
-    const EmptySpace* emptySpace = nullptr;  ///< Of the layer, where it passesOver() that.
+    const EmptySpace* emptySpace = nullptr;  ///< Of the layer, where it passesOverEmptySpace().
+    const RangeTable* ranges = nullptr;      ///< Of what it draws, where it readsRanges().
     const data::Volume* volume = nullptr;
     const scene::Layer* layer = nullptr;
     const plan::LayerPlan* plan = nullptr;
@@ -64,13 +56,19 @@ struct DrawInputs {
     /// Of lib/layer.glsl and of the classification.
     std::vector<shading::Constant> constants;
     const gpu::Target* target = nullptr;
-    /// Of drawMarch(): column and row of the first pixel and size of what is drawn of the target.
+    /// Column and row of the first pixel and size of what is drawn of the target; of all but
+    /// slices.
     glm::ivec4 cover{0};
 };
 
-/// Whether a march by that plan passes over what EmptySpace knows to show nothing. Extremes do not:
-/// what can still raise them is known on the way alone.
+/// A full-screen pass over the pixels of `inputs.cover`.
+void drawCover(const DrawInputs& inputs);
+
+/// Whether a march by that plan passes over what EmptySpace knows to show nothing.
 bool passesOverEmptySpace(const scene::Layer& layer, const plan::LayerPlan& plan);
+/// Whether it reads a RangeTable instead: what can still raise or lower an extreme is known on the
+/// way alone.
+bool readsRanges(const scene::Layer& layer, const plan::LayerPlan& plan);
 
 /// Draws one layer over what is in the target; one that is opaque where it is nearest. The layer
 /// block, the map and the opaque distances are bound by the caller.
@@ -123,6 +121,7 @@ struct UserTraits {
     int otherChannels = 0;  ///< None of bricks.
     int iterations = 0;
     bool missing = false;
+    bool byDistance = false;  ///< Passes over empty space, by EmptySpace.
     FieldTraits field = {};
 };
 

@@ -22,6 +22,8 @@ shading::Recipe userRecipe(const UserTraits& traits, std::vector<shading::TextCh
                       {"kClipPlanes", traits.clipPlanes},
                       {"kClipsAtStart", true},
                       {"kOtherChannels", traits.otherChannels},
+                      {"kByDistance", traits.byDistance},
+                      {"kJitters", false},
                       // The driver counts the rounds of all loops of a ray together.
                       {"kMaxRaySamples", most / (1 + traits.iterations)}});
     shading::Recipe recipe{
@@ -46,6 +48,7 @@ Result<void> drawUserCode(const DrawInputs& inputs, const UserInputs& user) {
         .otherChannels = std::max(static_cast<int>(user.channels.size()) - 1, 0),
         .iterations = user.iterations,
         .missing = inputs.plan->has(plan::kVoxelsWithoutValue),
+        .byDistance = inputs.emptySpace != nullptr,
         .field = fieldTraits(inputs)};
     const Result<const gpu::Program*> program =
         inputs.programs->ray(userRecipe(traits, user.texts, inputs.constants));
@@ -59,7 +62,8 @@ Result<void> drawUserCode(const DrawInputs& inputs, const UserInputs& user) {
         user.channels[i]->bind(i == 0 ? shading::shared::kVoxelUnit
                                       : shading::shared::kOtherChannelUnit + i - 1);
     }
-    inputs.device->draw(gpu::Primitive::kTriangles, 3);
+    if (inputs.emptySpace != nullptr) inputs.emptySpace->bind();
+    drawCover(inputs);
     return {};
 }
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "renderer/mesh/combine_state.h"
+#include "renderer/drawing/combine_state.h"
 #include "renderer/scene/camera.h"
 #include "renderer/scene/ray_models.h"
 
@@ -84,7 +84,8 @@ Result<void> drawSlices(const DrawInputs& inputs, const data::Volume& volume,
     if (made) made = state.send(*inputs.device, planes.block);
     if (!made) return made;
 
-    const mesh::CombineState& combine = mesh::stateOf(scene::row(inputs.layer->model).combine);
+    const drawing::CombineState& combine =
+        drawing::stateOf(scene::row(inputs.layer->model).combine);
     state.target().begin({.blend = combine.blend});
     state.target().clearColour(0, glm::vec4{combine.neutral});
     (*program)->use();

@@ -39,7 +39,7 @@ Result<std::unique_ptr<ArmedFault>> ArmedFault::arm(const FaultSpec& spec) {
     if (struckBy(spec.fault) == FaultyProcess::kImport) {
         return fail(ErrorCode::kInvalidArgument, toText(spec) + " strikes imports, not workers");
     }
-    spdlog::warn("the fault {} is armed", toText(spec));
+    spdlog::warn("event=fault_armed fault={}", toText(spec));
     if (const auto driver = driverFault(spec.fault)) gpu::injectDriverFault(*driver, spec.after);
     return std::unique_ptr<ArmedFault>{new ArmedFault{spec}};
 }

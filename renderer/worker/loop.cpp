@@ -7,6 +7,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include "renderer/base/printable.h"
 #include "renderer/data/packed_dataset.h"
 #include "renderer/scene/validate.h"
 #include "renderer/worker/frame_message.h"
@@ -50,6 +51,10 @@ void put(const scene::Counters& work, wire::Counters* message) {
     message->set_frames_drawn(work.framesDrawn);
 }
 
+void log(const char* event, const Error& error) {
+    spdlog::error(R"(event={} error="{}")", event, base::printable(error.message, 1000));
+}
+
 Error oneDescriptorExpected(const std::string& message, std::size_t count) {
     return fail(ErrorCode::kInvalidArgument,
                 message + " came with " + std::to_string(count) + " descriptors instead of 1");
@@ -63,14 +68,14 @@ ExitCode Loop::run() {
         auto descriptors = channel_.receive(message, std::chrono::milliseconds{-1});
         if (!descriptors) {
             if (descriptors.error().code == ErrorCode::kDeviceLost) return kExitDone;
-            spdlog::error("{}", descriptors.error().message);
+            log("message_refused", descriptors.error());
             return kExitProtocol;
         }
         if (Result<void> done = handle(message, **descriptors); !done) {
-            if (deviceLost_) spdlog::error("{}", done.error().message);
+            if (deviceLost_) log("device_lost", done.error());
             if (deviceLost_) return kExitDeviceLost;
             if (done.error().code == ErrorCode::kDeviceLost) return kExitDone;
-            spdlog::error("{}", done.error().message);
+            log("message_refused", done.error());
             return kExitProtocol;
         }
     }
@@ -141,7 +146,7 @@ Result<void> Loop::warmUp(std::uint32_t step) {
     // What fails here fails again, and is told, when a scene needs it.
     if (auto done = worker::warmUp(renderer_, step); !done) {
         if (done.error().code == ErrorCode::kDeviceLost) return deviceLoss(done.error());
-        spdlog::warn("{}", done.error().message);
+        log("warm_up_failed", done.error());
     }
     wire::FromWorker answer;
     answer.mutable_warmed_up()->set_step(step);
@@ -207,7 +212,7 @@ Result<void> Loop::render(const wire::Render& request, const Descriptors& descri
 Result<void> Loop::measure(const wire::Measure& request) {
     const auto job = jobFrom(request);
     const auto measured =
-        job ? meter_.advance(*job) : Result<std::optional<accuracy::Measurement>>{job.error()};
+        job ? advance(*job) : Result<std::optional<accuracy::Measurement>>{job.error()};
     if (Result<void> alive = checkDevice(); !alive) return alive;
     if (!measured) {
         wire::Failed failed;
@@ -222,6 +227,16 @@ Result<void> Loop::measure(const wire::Measure& request) {
         answer.mutable_measuring()->set_request(request.request());
     }
     return reply(std::move(answer));
+}
+
+Result<std::optional<accuracy::Measurement>> Loop::advance(const accuracy::Job& job) {
+    if (job.aim == accuracy::Aim::kCandidate) return meter_.advance(job);
+    const auto evidence = evidence_.of(job.scene, job.size);
+    if (!evidence) return evidence.error();
+    if (job.aim != accuracy::Aim::kEstimates) return meter_.advance(job, *evidence);
+    accuracy::Measurement measured;
+    measured.estimates = *evidence;
+    return measured;
 }
 
 Result<void> Loop::pick(const wire::Pick& request) {

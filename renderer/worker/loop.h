@@ -50,6 +50,8 @@ private:
     Result<internal::v1::Rendered> draw(const internal::v1::Render& request,
                                         const Descriptors& descriptors);
     Result<void> measure(const internal::v1::Measure& request);
+    /// A part of it; empty: there is more.
+    Result<std::optional<accuracy::Measurement>> advance(const accuracy::Job& job);
     Result<void> pick(const internal::v1::Pick& request);
     /// Answers with `failed`; kDeviceLost where the device is lost, by `error` or by itself.
     Result<void> refuse(const Error& error, internal::v1::Failed failed);

@@ -12,6 +12,7 @@
 #include <spdlog/spdlog.h>
 
 #include "renderer/base/forbidden.h"
+#include "renderer/base/printable.h"
 #include "renderer/base/sandbox.h"
 #include "renderer/base/software_gpu.h"
 #include "renderer/gpu/device.h"
@@ -31,7 +32,7 @@ using Clock = std::chrono::steady_clock;
 
 /// Tells the server why this worker cannot start.
 int refuse(worker::Channel& channel, const Error& error, worker::ExitCode code) {
-    spdlog::debug("{}", error.message);
+    spdlog::debug(R"(event=no_start error="{}")", base::printable(error.message, 1000));
     internal::v1::FromWorker message;
     *message.mutable_failed() = worker::toMessage(error);
     static_cast<void>(channel.send(message));  // A server that is gone needs no reason.
@@ -64,7 +65,7 @@ base::SandboxPolicy sandboxPolicy(const worker::Options& options) {
 /// 1 where something was let through.
 int tryForbidden(const worker::Options& options) {
     if (Result<void> inside = base::enterSandbox(sandboxPolicy(options)); !inside) {
-        spdlog::error("{}", inside.error().message);
+        spdlog::error(R"(event=no_sandbox error="{}")", base::printable(inside.error().message));
         return worker::kExitSandbox;
     }
     const std::vector<base::Tried> all = base::tryForbidden("/tmp");
@@ -119,10 +120,10 @@ int main(int argc, char** argv) {
     ::prctl(PR_SET_PDEATHSIG, SIGKILL, 0, 0, 0);
     try {
         spdlog::set_default_logger(spdlog::stderr_logger_st("worker"));
-        spdlog::set_pattern("%Y-%m-%dT%H:%M:%S.%e %l worker %P: %v");
+        spdlog::set_pattern("%Y-%m-%dT%H:%M:%S.%e %l %v worker=%P");
         const auto options = worker::parseOptions({argv, static_cast<std::size_t>(argc)});
         if (!options) {
-            spdlog::error("{}", options.error().message);
+            std::fprintf(stderr, "volcast-worker: %s\n", options.error().message.c_str());
             return worker::kExitUsage;
         }
         if (options->help || options->listFaults) {
@@ -135,12 +136,12 @@ int main(int argc, char** argv) {
             return worker::kExitDone;
         }
         if (::fcntl(worker::kChannelFd, F_GETFD) < 0) {
-            spdlog::error("volcast-worker is started by volcast and has no use alone");
+            std::fputs("volcast-worker is started by volcast and has no use alone\n", stderr);
             return worker::kExitUsage;
         }
         return serve(*options, start);
     } catch (const std::exception& error) {
-        spdlog::critical("{}", error.what());
+        spdlog::critical(R"(event=exception error="{}")", base::printable(error.what(), 1000));
         return worker::kExitException;
     }
 }

@@ -31,11 +31,12 @@ Examples:
   volcast load --clients orbit=4 --duration 10
   volcast load --clients orbit,idle=20,slow=1 --json --min-fps 5 --max-p99-ms 2000 --max-errors 0
   volcast load ws://127.0.0.1:8080 --clients orbit=200 --views 1 --max-age-p99-ms 100
-  volcast load --clients shaped --link-mbit 1 --link-delay 200
+  volcast load --clients orbit=20 --min-fairness 0.8
+  volcast load --clients shaped --link-mbit 1 --link-delay 200 --acks none
 
 "input to frame" runs from an input to the first frame of it or a newer one; "age" from an input to
 the arrival of the frame that shows it, in every client of the view. "overtaken" inputs were never
-shown, but a newer one was. Quantiles are at most 1.6 % too high.
+shown to a client of the view, but a newer one was. Quantiles are at most 1.6 % too high.
 
 Exit code: 0 done and all thresholds kept, 1 a threshold was not kept or the run failed, 2 wrong
 options.)";
@@ -45,20 +46,26 @@ int complain(const Error& error) {
     return error.code == ErrorCode::kInvalidArgument ? kUsage : 1;
 }
 
+/// Limits that all clients fit into, where the caller sets none.
 std::vector<std::string> serverArguments(const LoadOptions& options) {
     unsigned clients = 0;
     for (const load::Group& group : options.settings.groups) clients += group.clients;
     std::vector<std::string> words{"--log-level", "error"};
-    const bool limited = std::ranges::any_of(options.serverArguments, [](const std::string& word) {
-        return word.starts_with("--max-clients");
-    });
-    if (!limited) {
-        words.insert(words.end(),
-                     {"--max-clients", std::to_string(std::min(clients + 8, 10'000U))});
+    const std::string room = std::to_string(std::min(clients + 8, 10'000U));
+    for (const std::string flag : {"--max-clients", "--max-people"}) {
+        const bool limited = std::ranges::any_of(
+            options.serverArguments,
+            [&flag](const std::string& word) { return word.starts_with(flag); });
+        if (!limited) words.insert(words.end(), {flag, room});
     }
     words.insert(words.end(), options.serverArguments.begin(), options.serverArguments.end());
     if (!options.dataFolder.empty()) words.push_back(options.dataFolder);
     return words;
+}
+
+bool limitsOwnServer(const load::Thresholds& limits) {
+    return limits.maxServerMb || limits.maxServerCores || limits.maxGrowthMb ||
+           limits.maxGrowthDescriptors || limits.maxGrowthThreads;
 }
 
 int run(LoadOptions options) {
@@ -73,10 +80,10 @@ int run(LoadOptions options) {
         options.url = own->url();
         options.settings.serverPid = own->pid();
     } else if (!options.dataFolder.empty() || !options.serverArguments.empty() ||
-               options.thresholds.maxServerMb) {
+               limitsOwnServer(options.thresholds)) {
         return complain(fail(ErrorCode::kInvalidArgument,
-                             "--data, --server-option and --max-server-mb are of the command's own "
-                             "server, but a URL was given"));
+                             "--data, --server-option, --max-server-... and --max-growth-... are "
+                             "of the command's own server, but a URL was given"));
     }
     const auto url = net::parseWsUrl(options.url);
     if (!url) return complain(url.error());

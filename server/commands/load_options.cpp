@@ -2,6 +2,8 @@
 
 #include <charconv>
 #include <cmath>
+#include <map>
+#include <sstream>
 
 #include <CLI/CLI.hpp>
 
@@ -62,7 +64,7 @@ void addClients(CLI::App& command, LoadOptions& options) {
         ->delimiter(',');
     command
         .add_option("--views", settings.views,
-                    "So many views for all clients: the first clients open and steer them, the "
+                    "So many views for all clients: the first that move open and steer them, the "
                     "others join by link and watch; 0: one a client")
         ->check(CLI::Range(0U, kMostClients))
         ->capture_default_str();
@@ -75,6 +77,19 @@ void addClients(CLI::App& command, LoadOptions& options) {
     command.add_option("--rate", settings.inputsPerSecond, "Inputs a second of each that moves")
         ->check(within(0.01, 1000))
         ->capture_default_str();
+    command
+        .add_option("--acks", settings.acks,
+                    "full: each frame, the server paces; one: one frame under way; none: nothing "
+                    "but the socket slows frames. one and none pin JPEG quality and full size")
+        ->transform(CLI::CheckedTransformer(
+            std::map<std::string, load::Acks>{{"full", load::Acks::kFull},
+                                              {"one", load::Acks::kOneCredit},
+                                              {"none", load::Acks::kNone}}))
+        ->default_str("full");
+    command
+        .add_option("--quality", settings.quality,
+                    "Of JPEG, pinned; none: as the server paces, at most 90")
+        ->check(CLI::Range(30U, 100U));
     command.add_option("--dataset", settings.dataset, "What views show; none: the first listed");
     command.add_option("--width", settings.width, "Pixels")
         ->check(CLI::Range(1U, 8192U))
@@ -115,9 +130,16 @@ void addThresholds(CLI::App& command, load::Thresholds& limits) {
     add("--max-p95-ms", limits.maxP95Ms, "The same");
     add("--max-p99-ms", limits.maxP99Ms, "The same");
     add("--max-age-p99-ms", limits.maxAgeP99Ms, "Age of frames that show something new");
-    add("--min-fps", limits.minFps, "Frames a second of the slowest client that moves");
+    add("--max-age-ms", limits.maxAgeMs, "The oldest of those");
+    add("--min-fps", limits.minFps, "Frames a second of the slowest client in views that move");
+    add("--min-fairness", limits.minFairness,
+        "Slowest over fastest of the views that move, in frames/s");
     add("--max-errors", limits.maxErrors, "Refusals, failed and lost connections");
     add("--max-server-mb", limits.maxServerMb, "Resident memory of the own server and its workers");
+    add("--max-server-cores", limits.maxServerCores, "CPUs of the own server without its workers");
+    add("--max-growth-mb", limits.maxGrowthMb, "Of both, from begin to end of the measured time");
+    add("--max-growth-descriptors", limits.maxGrowthDescriptors, "The same");
+    add("--max-growth-threads", limits.maxGrowthThreads, "The same");
 }
 
 }  // namespace

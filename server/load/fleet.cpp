@@ -50,29 +50,29 @@ private:
     std::vector<std::unique_ptr<SharedView>> views_;
     std::vector<std::unique_ptr<ScriptedClient>> clients_;
     std::vector<Stats*> statsOf_;
+    std::vector<Kind> kinds_;  ///< Of clients_; the first so many as there are views steer.
     Clock::time_point begun_ = Clock::now();
     Clock::time_point measuredFrom_{};
     std::optional<std::string> failure_;
     Outcome outcome_;
 };
 
-/// Clients in the order of their groups; the first of each view opens it.
+/// Clients in the order of their groups, those that move first; the first of each view opens it.
 void Fleet::cast() {
-    std::vector<Kind> kinds;
     for (const Group& group : settings_.groups) {
-        kinds.insert(kinds.end(), group.clients, group.kind);
+        kinds_.insert(kinds_.end(), group.clients, group.kind);
     }
-    const std::size_t wanted = settings_.views == 0 ? kinds.size() : settings_.views;
-    const std::size_t views = std::min(wanted, kinds.size());
+    std::ranges::stable_partition(kinds_, moves);
+    const std::size_t wanted = settings_.views == 0 ? kinds_.size() : settings_.views;
+    const std::size_t views = std::min(wanted, kinds_.size());
     for (std::size_t i = 0; i < views; ++i) views_.push_back(std::make_unique<SharedView>());
-    for (std::size_t i = 0; i < kinds.size(); ++i) {
+    for (std::size_t i = 0; i < kinds_.size(); ++i) {
         const bool opens = i < views;
         SharedView& view = *views_[i % views];
         if (!opens) ++view.members;
-        Stats& stats = outcome_.kinds[name(kinds[i]) + std::string{opens ? "" : ", watching"}];
+        Stats& stats = outcome_.kinds[name(kinds_[i]) + std::string{opens ? "" : ", watching"}];
         ++stats.clients;
-        stats.moves = opens && moves(kinds[i]);
-        clients_.push_back(std::make_unique<ScriptedClient>(stage_, kinds[i], view, opens, stats));
+        clients_.push_back(std::make_unique<ScriptedClient>(stage_, kinds_[i], view, opens, stats));
         statsOf_.push_back(&stats);
     }
     outcome_.views = static_cast<unsigned>(views);
@@ -121,6 +121,8 @@ void Fleet::sample() {
     most.processes = std::max(most.processes, use->processes);
     most.rootThreads = std::max(most.rootThreads, use->rootThreads);
     most.rootDescriptors = std::max(most.rootDescriptors, use->rootDescriptors);
+    most.treeThreads = std::max(most.treeThreads, use->treeThreads);
+    most.treeDescriptors = std::max(most.treeDescriptors, use->treeDescriptors);
     loop_->at(Clock::now() + kSampleEach, [this] { sample(); });
 }
 
@@ -143,7 +145,11 @@ void Fleet::gather() {
     const std::chrono::duration<double> measured = Clock::now() - measuredFrom_;
     outcome_.seconds = stage_.measuring ? measured.count() : 0;
     for (std::size_t i = 0; i < clients_.size(); ++i) {
-        statsOf_[i]->framesByClient.push_back(clients_[i]->frames());
+        const std::uint64_t frames = clients_[i]->frames();
+        statsOf_[i]->framesByClient.push_back(frames);
+        if (!moves(kinds_[i % views_.size()])) continue;
+        if (i < views_.size()) outcome_.steeredFrames.push_back(frames);
+        if (kinds_[i] != Kind::kJoin) outcome_.movingFrames.push_back(frames);
     }
 }
 

@@ -59,6 +59,16 @@ std::map<int, Stat> allProcesses() {
     return all;
 }
 
+unsigned descriptorsOf(int pid) {
+    unsigned count = 0;
+    std::error_code ignored;
+    for (fs::directory_iterator at{"/proc/" + std::to_string(pid) + "/fd", ignored}, end; at != end;
+         at.increment(ignored)) {
+        ++count;
+    }
+    return count;
+}
+
 bool descendsFrom(int root, int pid, const std::map<int, Stat>& all) {
     for (auto at = all.find(pid); at != all.end(); at = all.find(at->second.parent)) {
         if (at->second.parent == root) return true;
@@ -78,17 +88,17 @@ std::optional<TreeUse> treeUse(int pid) {
                 .rootBytes = root->second.bytes,
                 .treeBytes = root->second.bytes,
                 .processes = 1,
-                .rootThreads = root->second.threads};
+                .rootThreads = root->second.threads,
+                .rootDescriptors = descriptorsOf(pid),
+                .treeThreads = root->second.threads};
+    use.treeDescriptors = use.rootDescriptors;
     for (const auto& [other, stat] : all) {
         if (!descendsFrom(pid, other, all)) continue;
         use.childrenCpuS += stat.cpuS + stat.reapedCpuS;
         use.treeBytes += stat.bytes;
+        use.treeThreads += stat.threads;
+        use.treeDescriptors += descriptorsOf(other);
         ++use.processes;
-    }
-    std::error_code ignored;
-    for (fs::directory_iterator at{"/proc/" + std::to_string(pid) + "/fd", ignored}, end; at != end;
-         at.increment(ignored)) {
-        ++use.rootDescriptors;
     }
     return use;
 }

@@ -14,6 +14,10 @@ struct TreeUse {
     unsigned processes = 0;
     unsigned rootThreads = 0;
     unsigned rootDescriptors = 0;
+    unsigned treeThreads = 0;      ///< With descendants.
+    unsigned treeDescriptors = 0;  ///< With those descendants whose /proc may be read.
+
+    [[nodiscard]] double cpuS() const noexcept { return rootCpuS + childrenCpuS; }
 };
 
 /// Reads /proc; empty where there is no process `pid`.

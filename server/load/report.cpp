@@ -10,6 +10,8 @@ namespace {
 
 namespace json = boost::json;
 
+constexpr double kMb = 1e6;
+
 template <class... Values>
 std::string format(const char* pattern, Values... values) {
     std::string text(256, '\0');
@@ -28,15 +30,30 @@ double perSecond(double count, const Outcome& outcome) {
     return outcome.seconds > 0 ? count / outcome.seconds : 0;
 }
 
-struct Slowest {
-    double least = 0, most = 0;
+struct Rates {
+    double slowest = 0, fastest = 0;
 };
 
-Slowest framesPerSecond(const Stats& stats, const Outcome& outcome) {
-    if (stats.framesByClient.empty()) return {};
-    const auto [least, most] = std::ranges::minmax(stats.framesByClient);
+Rates ratesOf(const std::vector<std::uint64_t>& frames, const Outcome& outcome) {
+    if (frames.empty()) return {};
+    const auto [least, most] = std::ranges::minmax(frames);
     return {perSecond(static_cast<double>(least), outcome),
             perSecond(static_cast<double>(most), outcome)};
+}
+
+/// 1: all alike; 0: one gets nothing, or there is none.
+double fairness(const Rates& rates) {
+    return rates.fastest > 0 ? rates.slowest / rates.fastest : 0;
+}
+
+double growthMb(const Outcome& outcome) {
+    return (static_cast<double>(outcome.after.treeBytes) -
+            static_cast<double>(outcome.before.treeBytes)) /
+           kMb;
+}
+
+double growth(unsigned before, unsigned after) {
+    return static_cast<double>(after) - before;
 }
 
 json::object quantiles(const Histogram& histogram) {
@@ -46,7 +63,7 @@ json::object quantiles(const Histogram& histogram) {
 }
 
 json::object kindJson(const Stats& stats, const Outcome& outcome) {
-    const Slowest fps = framesPerSecond(stats, outcome);
+    const Rates rates = ratesOf(stats.framesByClient, outcome);
     json::object errors;
     for (const auto& [what, count] : stats.errors) errors[what] = count;
     return {{"clients", stats.clients},
@@ -55,8 +72,8 @@ json::object kindJson(const Stats& stats, const Outcome& outcome) {
             {"lost_connections", stats.lostConnections},
             {"frames", stats.frames},
             {"bytes", stats.bytes},
-            {"frames_per_s_slowest", fps.least},
-            {"frames_per_s_fastest", fps.most},
+            {"frames_per_s_slowest", rates.slowest},
+            {"frames_per_s_fastest", rates.fastest},
             {"inputs", stats.inputs},
             {"overtaken", stats.overtaken},
             {"input_to_frame_ms", quantiles(stats.inputToFrame)},
@@ -65,17 +82,51 @@ json::object kindJson(const Stats& stats, const Outcome& outcome) {
             {"errors", std::move(errors)}};
 }
 
+json::object useJson(const TreeUse& use) {
+    return {{"resident_bytes", use.rootBytes},
+            {"resident_bytes_with_workers", use.treeBytes},
+            {"processes", use.processes},
+            {"threads", use.rootThreads},
+            {"threads_with_workers", use.treeThreads},
+            {"descriptors", use.rootDescriptors},
+            {"descriptors_with_workers", use.treeDescriptors}};
+}
+
 json::object serverJson(const Outcome& outcome) {
-    const TreeUse& most = outcome.most;
+    json::object all = useJson(outcome.most);
     const double own = outcome.after.rootCpuS - outcome.before.rootCpuS;
     const double children = outcome.after.childrenCpuS - outcome.before.childrenCpuS;
-    return {{"cpu_s", own},
-            {"workers_cpu_s", children},
-            {"resident_bytes", most.rootBytes},
-            {"resident_bytes_with_workers", most.treeBytes},
-            {"processes", most.processes},
-            {"threads", most.rootThreads},
-            {"descriptors", most.rootDescriptors}};
+    all["cpu_s"] = own;
+    all["workers_cpu_s"] = children;
+    all["streaming_share"] = own + children > 0 ? own / (own + children) : 0;
+    all["start"] = useJson(outcome.before);
+    all["end"] = useJson(outcome.after);
+    return all;
+}
+
+std::string latencies(const Histogram& histogram) {
+    return format("%7.0f%7.0f%7.0f%7.0f", histogram.quantileMs(0.50), histogram.quantileMs(0.95),
+                  histogram.quantileMs(0.99), histogram.maxMs());
+}
+
+std::string rowOf(const std::string& kind, const Stats& stats, const Outcome& outcome) {
+    const Rates rates = ratesOf(stats.framesByClient, outcome);
+    const auto bytes = static_cast<double>(stats.bytes);
+    return format("%-16s %7u  %7.1f %7.1f ", kind.c_str(), stats.clients, rates.slowest,
+                  rates.fastest) +
+           latencies(stats.inputToFrame) + " " + latencies(stats.age) +
+           format("  %9llu %7.2f %8.1f  %6llu\n", static_cast<unsigned long long>(stats.overtaken),
+                  perSecond(bytes / kMb, outcome),
+                  stats.frames == 0 ? 0.0 : bytes / 1e3 / static_cast<double>(stats.frames),
+                  static_cast<unsigned long long>(errorsOf(stats)));
+}
+
+std::string useText(const char* when, const TreeUse& use) {
+    return format(
+        "  %-6s %6.0f MB resident, %6.0f with workers; %3u threads, %3u with workers; %4u "
+        "descriptors, %4u with workers; %u processes\n",
+        when, static_cast<double>(use.rootBytes) / kMb, static_cast<double>(use.treeBytes) / kMb,
+        use.rootThreads, use.treeThreads, use.rootDescriptors, use.treeDescriptors, use.processes);
 }
 
 }  // namespace
@@ -83,14 +134,10 @@ json::object serverJson(const Outcome& outcome) {
 std::vector<std::string> violations(const Outcome& outcome, const Thresholds& thresholds) {
     Histogram inputToFrame, age;
     std::uint64_t errors = 0;
-    std::optional<double> slowest;
     for (const auto& [kind, stats] : outcome.kinds) {
         inputToFrame.merge(stats.inputToFrame);
         age.merge(stats.age);
         errors += errorsOf(stats);
-        if (!stats.moves) continue;
-        const double least = framesPerSecond(stats, outcome).least;
-        slowest = std::min(slowest.value_or(least), least);
     }
     std::vector<std::string> all;
     const auto atMost = [&all](const char* what, double value, const std::optional<double>& limit) {
@@ -101,19 +148,32 @@ std::vector<std::string> violations(const Outcome& outcome, const Thresholds& th
     atMost("input to frame p95 ms", inputToFrame.quantileMs(0.95), thresholds.maxP95Ms);
     atMost("input to frame p99 ms", inputToFrame.quantileMs(0.99), thresholds.maxP99Ms);
     atMost("frame age p99 ms", age.quantileMs(0.99), thresholds.maxAgeP99Ms);
+    atMost("frame age max ms", age.maxMs(), thresholds.maxAgeMs);
     atMost("errors", static_cast<double>(errors), thresholds.maxErrors);
-    constexpr double kMb = 1e6;
     atMost("server MB", static_cast<double>(outcome.most.treeBytes) / kMb, thresholds.maxServerMb);
+    atMost("server cores", perSecond(outcome.after.rootCpuS - outcome.before.rootCpuS, outcome),
+           thresholds.maxServerCores);
+    atMost("growth in MB", growthMb(outcome), thresholds.maxGrowthMb);
+    atMost("more descriptors",
+           growth(outcome.before.treeDescriptors, outcome.after.treeDescriptors),
+           thresholds.maxGrowthDescriptors);
+    atMost("more threads", growth(outcome.before.treeThreads, outcome.after.treeThreads),
+           thresholds.maxGrowthThreads);
     // What was not seen at all keeps no limit.
     const bool wantsLatency = thresholds.maxP50Ms || thresholds.maxP95Ms || thresholds.maxP99Ms;
     if (wantsLatency && inputToFrame.count() == 0)
         all.emplace_back("input to frame: no frame answered an input");
-    if (thresholds.maxAgeP99Ms && age.count() == 0)
+    if ((thresholds.maxAgeP99Ms || thresholds.maxAgeMs) && age.count() == 0)
         all.emplace_back("frame age: no frame showed a new input");
-    if (thresholds.minFps && slowest.value_or(0) < *thresholds.minFps) {
-        all.push_back(format("frames/s of the slowest client: %.4g, less than %.4g",
-                             slowest.value_or(0), *thresholds.minFps));
-    }
+    const auto atLeast = [&all](const char* what, double value,
+                                const std::optional<double>& limit) {
+        if (limit && value < *limit)
+            all.push_back(format("%s: %.4g, less than %.4g", what, value, *limit));
+    };
+    atLeast("frames/s of the slowest client", ratesOf(outcome.movingFrames, outcome).slowest,
+            thresholds.minFps);
+    atLeast("fairness of views", fairness(ratesOf(outcome.steeredFrames, outcome)),
+            thresholds.minFairness);
     return all;
 }
 
@@ -123,19 +183,16 @@ std::string reportText(const LoadSettings& settings, const Outcome& outcome) {
                    settings.url.host.c_str(), unsigned{settings.url.port}, outcome.views,
                    settings.inputsPerSecond, settings.width, settings.height, outcome.seconds,
                    outcome.interrupted ? " (interrupted)" : "");
-    text << "                         frames/s a client   input to frame, ms            age, ms\n"
-            "kind             clients  slowest fastest     p50    p95    p99    max    p50    p99"
-            "  overtaken    MB/s  errors\n";
+    text << "                          frames/s a client  input to frame, ms             age, ms"
+            "\nkind             clients  slowest fastest     p50    p95    p99    max"
+            "     p50    p95    p99    max  overtaken    MB/s KB/frame  errors\n";
     for (const auto& [kind, stats] : outcome.kinds) {
-        const Slowest fps = framesPerSecond(stats, outcome);
-        text << format(
-            "%-16s %7u  %7.1f %7.1f  %6.0f %6.0f %6.0f %6.0f %6.0f %6.0f  %9llu %7.2f  %6llu\n",
-            kind.c_str(), stats.clients, fps.least, fps.most, stats.inputToFrame.quantileMs(0.50),
-            stats.inputToFrame.quantileMs(0.95), stats.inputToFrame.quantileMs(0.99),
-            stats.inputToFrame.maxMs(), stats.age.quantileMs(0.50), stats.age.quantileMs(0.99),
-            static_cast<unsigned long long>(stats.overtaken),
-            perSecond(static_cast<double>(stats.bytes) / 1e6, outcome),
-            static_cast<unsigned long long>(errorsOf(stats)));
+        text << rowOf(kind, stats, outcome);
+    }
+    if (!outcome.steeredFrames.empty()) {
+        const Rates rates = ratesOf(outcome.steeredFrames, outcome);
+        text << format("\n%zu views move: %.1f to %.1f frames/s, fairness %.2f\n",
+                       outcome.steeredFrames.size(), rates.slowest, rates.fastest, fairness(rates));
     }
     for (const auto& [kind, stats] : outcome.kinds) {
         text << format(
@@ -151,14 +208,14 @@ std::string reportText(const LoadSettings& settings, const Outcome& outcome) {
     }
     text << '\n';
     if (outcome.serverMeasured) {
-        const TreeUse& most = outcome.most;
+        const double own = outcome.after.rootCpuS - outcome.before.rootCpuS;
+        const double all = outcome.after.cpuS() - outcome.before.cpuS();
         text << format(
-            "\nserver: %.2f cores, its workers %.2f; %.0f MB resident, %.0f with workers; %u "
-            "threads, %u descriptors\n",
-            perSecond(outcome.after.rootCpuS - outcome.before.rootCpuS, outcome),
-            perSecond(outcome.after.childrenCpuS - outcome.before.childrenCpuS, outcome),
-            static_cast<double>(most.rootBytes) / 1e6, static_cast<double>(most.treeBytes) / 1e6,
-            most.rootThreads, most.rootDescriptors);
+            "\nserver: streaming %.2f cores, its workers %.2f; streaming is %.0f %% of both\n",
+            perSecond(own, outcome), perSecond(all - own, outcome),
+            all > 0 ? 100 * own / all : 0.0);
+        text << useText("start", outcome.before) << useText("end", outcome.after)
+             << useText("most", outcome.most);
     }
     return text.str();
 }
@@ -167,6 +224,11 @@ json::object reportJson(const LoadSettings& settings, const Outcome& outcome,
                         const std::vector<std::string>& violated) {
     json::object kinds;
     for (const auto& [kind, stats] : outcome.kinds) kinds[kind] = kindJson(stats, outcome);
+    const Rates rates = ratesOf(outcome.steeredFrames, outcome);
+    json::object moving{{"count", outcome.steeredFrames.size()},
+                        {"frames_per_s_slowest", rates.slowest},
+                        {"frames_per_s_fastest", rates.fastest},
+                        {"fairness", fairness(rates)}};
     json::object report{{"host", settings.url.host},
                         {"port", settings.url.port},
                         {"views", outcome.views},
@@ -175,6 +237,7 @@ json::object reportJson(const LoadSettings& settings, const Outcome& outcome,
                         {"seconds", outcome.seconds},
                         {"interrupted", outcome.interrupted},
                         {"kinds", std::move(kinds)},
+                        {"views_that_move", std::move(moving)},
                         {"violations", json::array(violated.begin(), violated.end())}};
     if (outcome.serverMeasured) report["server"] = serverJson(outcome);
     return report;

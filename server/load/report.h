@@ -14,11 +14,17 @@ namespace volcast::load {
 /// What a run must keep to; absent: anything goes.
 struct Thresholds {
     // Of input to frame, over all clients that steer.
-    std::optional<double> maxP50Ms, maxP95Ms, maxP99Ms;
-    std::optional<double> maxAgeP99Ms;  ///< Of all clients.
-    std::optional<double> minFps;       ///< Of the slowest client that moves.
-    std::optional<double> maxErrors;
-    std::optional<double> maxServerMb;  ///< Resident, of the own server's processes together.
+    std::optional<double> maxP50Ms = {}, maxP95Ms = {}, maxP99Ms = {};
+    std::optional<double> maxAgeP99Ms = {};  ///< Of all clients.
+    std::optional<double> maxAgeMs = {};     ///< The oldest of all.
+    std::optional<double> minFps = {};       ///< Of the slowest client in a view that moves.
+    std::optional<double> minFairness = {};  ///< Slowest over fastest view that moves, in frames/s.
+    std::optional<double> maxErrors = {};
+    // Of the own server's processes.
+    std::optional<double> maxServerMb = {};     ///< Resident, together.
+    std::optional<double> maxServerCores = {};  ///< Of the server itself, without its workers.
+    // From the measured time's begin to its end, workers included.
+    std::optional<double> maxGrowthMb = {}, maxGrowthDescriptors = {}, maxGrowthThreads = {};
 };
 
 /// One sentence for each threshold that was not kept.

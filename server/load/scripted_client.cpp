@@ -1,5 +1,7 @@
 #include "server/load/scripted_client.h"
 
+#include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "protocol/framing.h"
@@ -12,6 +14,7 @@ constexpr std::uint32_t kView = 1;
 constexpr std::chrono::milliseconds kStay{500};  ///< Of "join", after its first frame.
 constexpr std::chrono::milliseconds kAway{100};
 constexpr std::chrono::milliseconds kRetry{1000};
+constexpr std::chrono::milliseconds kBlindAck{20};
 
 double msSince(std::chrono::steady_clock::time_point then) {
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - then)
@@ -100,6 +103,8 @@ void ScriptedClient::openView() {
 
 void ScriptedClient::opened(const v1::ViewOpened& message) {
     inputSeq_ = std::max(inputSeq_, message.input_seq());
+    if (stage_.settings.acks != Acks::kFull || stage_.settings.quality) pin();
+    if (stage_.settings.acks == Acks::kNone) ackBlindly(connection_);
     if (opens_ && view_.members > 1) {
         sharing_ = true;
         v1::ClientMessage share;
@@ -139,10 +144,7 @@ void ScriptedClient::frame(std::span<const std::byte> bytes) {
         ++stats_.errors["unreadable frame"];
         return;
     }
-    v1::ClientMessage ack;
-    ack.mutable_ack()->set_view(frame->prefix.view);
-    ack.mutable_ack()->set_sequence(frame->prefix.sequence);
-    send(ack);
+    if (stage_.settings.acks != Acks::kNone) ack(frame->prefix.view, frame->prefix.sequence);
     const bool first = shownSeq_ == 0;
     settled_ = true;
     if (first) stats_.firstFrame.add(msSince(startedAt_));
@@ -160,14 +162,12 @@ void ScriptedClient::measure(std::uint64_t inputSeq, std::size_t bytes) {
         stats_.bytes += bytes;
     }
     if (inputSeq <= shownSeq_) return;  // The same state again, as a better picture.
+    if (stage_.measuring && shownSeq_ != 0) stats_.overtaken += inputSeq - shownSeq_ - 1;
     shownSeq_ = inputSeq;
     const auto sent = view_.sentAt.find(inputSeq);
     if (stage_.measuring && sent != view_.sentAt.end()) stats_.age.add(msSince(sent->second));
     while (!unanswered_.empty() && unanswered_.front().inputSeq <= inputSeq) {
-        if (stage_.measuring) {
-            stats_.inputToFrame.add(msSince(unanswered_.front().at));
-            if (unanswered_.front().inputSeq < inputSeq) ++stats_.overtaken;
-        }
+        if (stage_.measuring) stats_.inputToFrame.add(msSince(unanswered_.front().at));
         unanswered_.pop_front();
     }
 }
@@ -189,8 +189,39 @@ void ScriptedClient::closed(const std::string& why) {
         ++(wasOpen ? stats_.lostConnections : stats_.failedConnects);
         ++stats_.errors[why];
     }
-    if (opens_) view_.link.clear();
+    if (opens_) view_.lost();
     stage_.loop.at(Clock::now() + (why.empty() ? kAway : kRetry), [this] { start(); });
+}
+
+void ScriptedClient::ack(std::uint32_t view, std::uint32_t sequence) {
+    v1::ClientMessage message;
+    message.mutable_ack()->set_view(view);
+    message.mutable_ack()->set_sequence(sequence);
+    // Two frames behind means slow, but no step down the ladder.
+    if (stage_.settings.acks == Acks::kOneCredit) message.mutable_ack()->set_queue(2);
+    send(message);
+}
+
+/// Gives back every credit, whether frames came or not.
+void ScriptedClient::ackBlindly(std::uint64_t connection) {
+    if (connection != connection_ || !greeted_) return;
+    ack(kView, std::numeric_limits<std::uint32_t>::max());
+    stage_.loop.at(Clock::now() + kBlindAck, [this, connection] { ackBlindly(connection); });
+}
+
+/// The quality that is wanted; and where acks do not say how fast frames may come, the rest as it
+/// was at first, for good.
+void ScriptedClient::pin() {
+    v1::ClientMessage message;
+    message.mutable_set_pins()->set_view(kView);
+    v1::Pins& pins = *message.mutable_set_pins()->mutable_pins();
+    pins.set_quality(stage_.settings.quality.value_or(90));
+    if (stage_.settings.acks == Acks::kFull) return send(message);
+    pins.set_scale(1);
+    pins.set_frames_per_s(240);
+    pins.set_full_accuracy(true);
+    pins.set_codec(v1::CODEC_JPEG);
+    send(message);
 }
 
 void ScriptedClient::send(const v1::ClientMessage& message) {

@@ -53,6 +53,9 @@ private:
     void closed(const std::string& why);
     void measure(std::uint64_t inputSeq, std::size_t bytes);
     void input(std::uint64_t connection);
+    void ack(std::uint32_t view, std::uint32_t sequence);
+    void ackBlindly(std::uint64_t connection);
+    void pin();
     void send(const v1::ClientMessage& message);
 
     Stage& stage_;

@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace volcast::load {
@@ -26,6 +27,11 @@ struct SharedView {
     void shared(const std::string& by) {
         link = by;
         for (const auto& join : std::exchange(waiting, {})) join();
+    }
+    /// Who opened it is gone; another view will take its place, and counts inputs anew.
+    void lost() {
+        link.clear();
+        sentAt.clear();
     }
 };
 

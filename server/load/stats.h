@@ -14,14 +14,13 @@ namespace volcast::load {
 /// measured time.
 struct Stats {
     unsigned clients = 0;
-    bool moves = false;  ///< They send inputs all the time.
     std::uint64_t connects = 0;
     std::uint64_t failedConnects = 0;
     std::uint64_t lostConnections = 0;
     std::uint64_t frames = 0;
     std::uint64_t bytes = 0;  ///< Of frames, headers included.
     std::uint64_t inputs = 0;
-    std::uint64_t overtaken = 0;  ///< Inputs whose state was never shown, but a newer one.
+    std::uint64_t overtaken = 0;  ///< Inputs of the view whose state never came, but a newer one.
     Histogram inputToFrame;       ///< Each input, to the first frame of it or a newer one.
     Histogram age;                ///< Each new state, from its input to this client.
     Histogram firstFrame;         ///< From connecting.
@@ -34,10 +33,13 @@ struct Outcome {
     double seconds = 0;  ///< Measured.
     unsigned views = 0;
     std::map<std::string, Stats> kinds;  ///< By name; those that watch apart.
+    // Of the views in which somebody moves all the time.
+    std::vector<std::uint64_t> steeredFrames;  ///< Of who steers, by view.
+    std::vector<std::uint64_t> movingFrames;   ///< Of each client that stays.
     bool interrupted = false;
     bool serverMeasured = false;
     TreeUse before, after;  ///< The measured time's ends.
-    TreeUse most;           ///< Largest of each, sampled once a second.
+    TreeUse most;           ///< Largest of each but CPU, sampled once a second.
 };
 
 }  // namespace volcast::load

@@ -85,10 +85,13 @@ struct Metrics::Parts {
     std::map<v1::Codec, Counter*> frames, frameBytes;
     std::map<v1::ErrorCode, Counter*> errors;
     Gauge& views = gauge("volcast_views", "Views that are open");
-    Gauge& encodeQueue =
-        gauge("volcast_queue_depth", "What waits for a thread", {{"queue", "encode"}});
-    Gauge& importQueue =
-        gauge("volcast_queue_depth", "What waits for a thread", {{"queue", "import"}});
+    Gauge& queueDepth(const char* of) {
+        return gauge("volcast_queue_depth", "What waits for a thread, or for a GL worker",
+                     {{"queue", of}});
+    }
+    Gauge& renderQueue = queueDepth("render");
+    Gauge& encodeQueue = queueDepth("encode");
+    Gauge& importQueue = queueDepth("import");
     Counter& imports = counter("volcast_imports_total", "Imports that ended", {{"result", "good"}});
     Counter& failedImports =
         counter("volcast_imports_total", "Imports that ended", {{"result", "failed"}});
@@ -169,6 +172,7 @@ void Metrics::frameAcked(double roundTripMs) {
 std::string Metrics::text(const Standing& standing) {
     const std::lock_guard lock{parts_->standing};
     parts_->views.Set(static_cast<double>(standing.views));
+    parts_->renderQueue.Set(static_cast<double>(standing.viewsToDraw));
     parts_->encodeQueue.Set(static_cast<double>(standing.picturesToEncode));
     parts_->importQueue.Set(static_cast<double>(standing.importsWaiting));
     catchUp(parts_->imports, standing.imports);

@@ -13,6 +13,7 @@ namespace volcast::metrics {
 /// What is read when somebody asks, because other parts count it anyway.
 struct Standing {
     std::size_t views = 0;
+    std::size_t viewsToDraw = 0;       ///< That wait for their turn of a GL worker.
     std::size_t picturesToEncode = 0;  ///< That wait for an encoder's thread.
     std::size_t importsWaiting = 0;
     std::uint64_t imports = 0, failedImports = 0;      ///< Since the start.

@@ -17,6 +17,7 @@
 #include "server/net/http_answers.h"
 #include "server/net/tls.h"
 #include "server/net/web_socket.h"
+#include "server/session/views.h"
 
 namespace volcast::net {
 
@@ -27,6 +28,7 @@ constexpr std::chrono::seconds kKeepAlive{15};
 constexpr std::chrono::seconds kTlsEndWithin{2};
 constexpr std::chrono::milliseconds kDrainWithin{5000};
 constexpr std::chrono::milliseconds kPlainDrain{100};  ///< For answers being sent.
+constexpr std::chrono::seconds kTidyEach{2};
 constexpr std::uint32_t kHeaderLimit = 8192;
 constexpr unsigned kPlainConnections = 64;  ///< Besides WebSockets.
 
@@ -65,17 +67,19 @@ private:
     [[nodiscard]] std::optional<Response> refusal(const Request& request) const;
     void onSignal();
     void stopWithin(std::chrono::milliseconds limit);
+    void tidyLater();
 
     ListenSettings settings_;
     session::Shared& shared_;
     StaticFiles files_;
     HttpAnswers answers_;
     asio::io_context context_;
-    Strand control_{asio::make_strand(context_)};  ///< Of the four below.
+    Strand control_{asio::make_strand(context_)};  ///< Of the five below.
     asio::basic_socket_acceptor<Tcp, Strand> acceptor_{control_};
     asio::signal_set signals_{control_};
     asio::steady_timer drained_{control_};
     asio::steady_timer pause_{control_};
+    asio::steady_timer tidy_{control_};
     OriginRule origins_;
     std::unique_ptr<asio::ssl::context> tls_;  ///< None: plain TCP.
     std::atomic<unsigned> connections_ = 0;
@@ -122,6 +126,7 @@ void BeastServer::run() {
         if (!error) onSignal();
     });
     asio::co_spawn(control_, acceptAll(), asio::detached);
+    tidyLater();
     std::vector<std::thread> threads;
     for (unsigned i = 1; i < settings_.threads; ++i) {
         threads.emplace_back([this] { context_.run(); });
@@ -153,6 +158,16 @@ void BeastServer::stopWithin(std::chrono::milliseconds limit) {
     drained_.expires_after(limit);
     drained_.async_wait([this](boost::system::error_code error) {
         if (!error) context_.stop();
+    });
+}
+
+/// Views that nobody comes back to end, though nobody else comes either.
+void BeastServer::tidyLater() {
+    tidy_.expires_after(kTidyEach);
+    tidy_.async_wait([this](boost::system::error_code error) {
+        if (error) return;
+        shared_.views.tidy();
+        tidyLater();
     });
 }
 

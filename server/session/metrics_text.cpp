@@ -8,6 +8,7 @@ std::string metricsText(Shared& shared) {
     const workers::RenderStatus render = shared.render.status();
     const ImportCounts imports = shared.catalogue.importCounts();
     return shared.metrics.text({.views = shared.views.size(),
+                                .viewsToDraw = render.viewsWaiting,
                                 .picturesToEncode = shared.views.picturesToEncode(),
                                 .importsWaiting = imports.waiting,
                                 .imports = imports.good,

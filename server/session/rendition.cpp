@@ -127,8 +127,6 @@ std::shared_ptr<Encoding> Rendition::videoEncoding(const Format& format, InVideo
     return begin(std::move(group), true);
 }
 
-namespace {
-
 Result<std::vector<std::byte>> compress(const video::ImageView& image, const Format& format) {
     switch (format.codec) {
         case v1::CODEC_PNG: return video::encodePng(image);
@@ -136,8 +134,6 @@ Result<std::vector<std::byte>> compress(const video::ImageView& image, const For
         default: return video::encodeJpeg(image, format.quality);
     }
 }
-
-}  // namespace
 
 Encoding encode(const Encoding& encoding) {
     Encoding done = encoding;

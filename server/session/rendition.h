@@ -8,6 +8,7 @@
 
 #include "server/session/frame_flow.h"
 #include "server/session/video_group.h"
+#include "server/video/encoder.h"
 #include "server/workers/render_service.h"
 #include "volcast/v1/frame.pb.h"
 
@@ -119,6 +120,9 @@ private:
     std::vector<std::shared_ptr<Encoding>> encodings_;  ///< Of picture_.
     std::vector<std::weak_ptr<VideoGroup>> groups_;     ///< That new viewers may join.
 };
+
+/// Compresses a picture alone, as JPEG, PNG or WebP; blocks. Errors: as video::encodeJpeg.
+Result<std::vector<std::byte>> compress(const video::ImageView& image, const Format& format);
 
 /// Compresses `encoding`'s picture as its format says and returns the encoding done; blocks.
 /// Reads only what is constant in `encoding`.

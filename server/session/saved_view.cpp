@@ -1,5 +1,8 @@
 #include "server/session/saved_view.h"
 
+#include <memory>
+#include <utility>
+
 #include <boost/json.hpp>
 #include <google/protobuf/util/json_util.h>
 
@@ -27,6 +30,12 @@ Result<scene::Scene> sceneFrom(const json::value& document) {
         return fail(ErrorCode::kInvalidArgument, "scene: " + std::string{read.message()});
     }
     return worker::sceneFrom(message);
+}
+
+json::array stepsJson(const std::vector<SceneHistory::ScenePtr>& steps) {
+    json::array all;
+    for (const auto& step : steps) all.push_back(sceneJson(*step));
+    return all;
 }
 
 json::object personJson(const SavedView::Person& person) {
@@ -61,9 +70,14 @@ SavedView::Person personFrom(const json::object& object) {
 std::string toJson(const SavedView& view) {
     json::array people;
     for (const SavedView::Person& person : view.people) people.push_back(personJson(person));
-    const json::object document{{"volcast_view", kFormat},     {"id", view.id},
-                                {"shared", view.shared},       {"input_seq", view.inputSeq},
-                                {"people", std::move(people)}, {"scene", sceneJson(view.scene)}};
+    const json::object document{{"volcast_view", kFormat},
+                                {"id", view.id},
+                                {"shared", view.shared},
+                                {"input_seq", view.inputSeq},
+                                {"people", std::move(people)},
+                                {"scene", sceneJson(view.scene)},
+                                {"undo", stepsJson(view.history.undo)},
+                                {"redo", stepsJson(view.history.redo)}};
     return json::serialize(document) + "\n";
 }
 
@@ -85,6 +99,16 @@ Result<SavedView> savedViewFromJson(const std::string& text) {
         auto scene = sceneFrom(document.at("scene"));
         if (!scene) return scene.error();
         view.scene = *std::move(scene);
+        for (const auto& [key, steps] :
+             {std::pair{"undo", &view.history.undo}, std::pair{"redo", &view.history.redo}}) {
+            const json::value* saved = document.if_contains(key);  // Older files have none.
+            if (saved == nullptr) continue;
+            for (const json::value& step : saved->as_array()) {
+                auto before = sceneFrom(step);
+                if (!before) return before.error();
+                steps->push_back(std::make_shared<const scene::Scene>(*std::move(before)));
+            }
+        }
         return view;
     } catch (const std::exception& error) {
         return fail(ErrorCode::kInvalidArgument, std::string{"not a saved view: "} + error.what());

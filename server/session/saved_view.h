@@ -7,6 +7,7 @@
 
 #include "renderer/base/result.h"
 #include "renderer/scene/scene.h"
+#include "server/session/scene_history.h"
 #include "server/session/view_people.h"
 
 namespace volcast::session {
@@ -22,6 +23,7 @@ struct SavedView {
     bool shared = false;  ///< Links to it were given out.
     std::uint64_t inputSeq = 0;
     scene::Scene scene = {};
+    SceneHistory::Saved history = {};
     std::vector<Person> people = {};
 };
 

@@ -1,5 +1,6 @@
 #include "server/session/scene_history.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace volcast::session {
@@ -13,6 +14,20 @@ void SceneHistory::changed(ScenePtr before, bool cameraOnly, TimePoint now) {
     if (goesOn || !before) return;
     if (undo_.size() >= kMostSteps) undo_.pop_front();
     undo_.push_back(std::move(before));
+}
+
+SceneHistory::Saved SceneHistory::save() const {
+    const auto newest = [](const std::deque<ScenePtr>& steps) {
+        const auto count = std::min(steps.size(), kMostSaved);
+        return std::vector<ScenePtr>(steps.end() - static_cast<std::ptrdiff_t>(count), steps.end());
+    };
+    return {.undo = newest(undo_), .redo = newest(redo_)};
+}
+
+void SceneHistory::restore(const Saved& saved) {
+    undo_.assign(saved.undo.begin(), saved.undo.end());
+    redo_.assign(saved.redo.begin(), saved.redo.end());
+    open_ = false;
 }
 
 SceneHistory::ScenePtr SceneHistory::step(std::deque<ScenePtr>& from, std::deque<ScenePtr>& to,

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <deque>
 #include <memory>
+#include <vector>
 
 #include "renderer/scene/scene.h"
 #include "server/session/frame_flow.h"
@@ -24,6 +25,13 @@ public:
     void changed(ScenePtr before, bool cameraOnly, TimePoint now);
     [[nodiscard]] bool canUndo() const noexcept { return !undo_.empty(); }
     [[nodiscard]] bool canRedo() const noexcept { return !redo_.empty(); }
+    /// The newest kMostSaved steps of each, the next one last.
+    struct Saved {
+        std::vector<ScenePtr> undo, redo;
+    };
+    static constexpr std::size_t kMostSaved = 20;
+    [[nodiscard]] Saved save() const;
+    void restore(const Saved& saved);
     /// The scene to go back to, or forward to, from `current`; null where there is none.
     ScenePtr undo(ScenePtr current) { return step(undo_, redo_, std::move(current)); }
     ScenePtr redo(ScenePtr current) { return step(redo_, undo_, std::move(current)); }

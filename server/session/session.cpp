@@ -90,6 +90,9 @@ void Session::receive(std::span<const std::byte> bytes, Form form, TimePoint now
         case v1::ClientMessage::kExplain: return explain(message->explain());
         case v1::ClientMessage::kMeasureAccuracy:
             return measureAccuracy(message->measure_accuracy());
+        case v1::ClientMessage::kMeasureDifference:
+            return measureDifference(message->measure_difference());
+        case v1::ClientMessage::kDrawThumbnail: return drawThumbnail(message->draw_thumbnail());
         case v1::ClientMessage::kPick: return pick(message->pick());
         case v1::ClientMessage::kDescribeShader: return describeShader(message->describe_shader());
         case v1::ClientMessage::kInjectFault: return injectFault(message->inject_fault());

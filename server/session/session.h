@@ -107,6 +107,8 @@ private:
 
     void explain(const v1::Explain& message);
     void measureAccuracy(const v1::MeasureAccuracy& message);
+    void measureDifference(const v1::MeasureDifference& message);
+    void drawThumbnail(const v1::DrawThumbnail& message);
     void pick(const v1::Pick& message);
     void describeShader(const v1::DescribeShader& message);
     void injectFault(const v1::InjectFault& message);

@@ -111,6 +111,20 @@ void Session::measureAccuracy(const v1::MeasureAccuracy& message) {
     if (!begun) send(errorMessage(begun.error(), {.view = message.view()}));
 }
 
+void Session::measureDifference(const v1::MeasureDifference& message) {
+    const Seat* seat = findOrRefuse(message.view(), 0);
+    if (seat == nullptr) return;
+    const auto begun = seat->view->measureDifference(seat->viewer, message);
+    if (!begun) send(errorMessage(begun.error(), {.view = message.view()}));
+}
+
+void Session::drawThumbnail(const v1::DrawThumbnail& message) {
+    const Seat* seat = findOrRefuse(message.view(), 0);
+    if (seat == nullptr) return;
+    const auto asked = seat->view->drawThumbnail(seat->viewer, message);
+    if (!asked) send(errorMessage(asked.error(), {.view = message.view()}));
+}
+
 void Session::pick(const v1::Pick& message) {
     const Seat* seat = findOrRefuse(message.view(), 0);
     if (seat == nullptr) return;

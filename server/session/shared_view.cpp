@@ -54,6 +54,7 @@ void SharedView::end() {
     const Turn turn{*this};
     if (std::exchange(ended_, true)) return;
     parts_.router.remove(global_);
+    dropThumbnails();
     if (viewers_.empty()) return;  // Was dropped when the last one left.
     outbox_.put([&render = parts_.render, view = global_] { render.dropView(view); });
 }
@@ -85,10 +86,16 @@ Result<void> SharedView::update(ViewerId id, const v1::Update& message, TimePoin
         if (!accepted) return accepted.error();
         change = *accepted;
         if (change == SceneChange::kNone) return boost::system::in_place_value;
+        if (change == SceneChange::kSame && answerAgain(*viewer, size, 0, now)) {
+            return boost::system::in_place_value;
+        }
+        if (change == SceneChange::kSame) change = SceneChange::kDraw;
         history_.changed(before, !message.has_scene(), now);
         for (const auto& [other, one] : viewers_) one->input(now);
         stopMeasuring("the view changed");
     } else if (steers ? !scene_.advance(seq) : seq <= viewer->resizedBy()) {
+        return boost::system::in_place_value;
+    } else if (answerAgain(*viewer, size, steers ? 0 : seq, now)) {
         return boost::system::in_place_value;
     }
     state_.inputAt = now;
@@ -102,6 +109,21 @@ Result<void> SharedView::update(ViewerId id, const v1::Update& message, TimePoin
     apply(change, now, id, !message.has_scene());
     advance(*viewer, now);
     return boost::system::in_place_value;
+}
+
+/// An update that changed nothing, where the viewer's newest picture shows all there is: that one
+/// is its answer, once more and as it was sent, with the newer number. False where there is
+/// something to draw after all.
+bool SharedView::answerAgain(Viewer& viewer, scene::PictureSize size, std::uint64_t resizedBy,
+                             TimePoint now) {
+    if (size != viewer.size() || !viewer.shows(state_.scene)) return false;
+    state_.inputSeq = scene_.shownSeq();
+    viewer.resize(size, resizedBy);
+    for (const auto& [id, one] : viewers_) one->stays(state_.scene, state_.inputSeq);
+    viewer.sendAgain();
+    changed();
+    advance(viewer, now);
+    return true;
 }
 
 void SharedView::undo(ViewerId id, const v1::Undo& message, TimePoint now) {

@@ -13,6 +13,7 @@
 #include "server/session/scene_history.h"
 #include "server/session/shared.h"
 #include "server/session/view_accuracy.h"
+#include "server/session/view_difference.h"
 #include "server/session/view_people.h"
 #include "server/session/view_scene.h"
 #include "server/session/viewer.h"
@@ -90,7 +91,11 @@ public:
     // Of shared_view_tools.cpp. Errors: kNotFound, kUnsupported, kInvalidArgument with `field`.
     [[nodiscard]] Result<v1::Plan> explain(ViewerId viewer) const;
     Result<void> measure(ViewerId viewer, const v1::MeasureAccuracy& message);
+    Result<void> measureDifference(ViewerId viewer, const v1::MeasureDifference& message);
     Result<void> pick(ViewerId viewer, const v1::Pick& message);
+    /// Of shared_view_thumbnails.cpp. Errors: as readyScene(); kInvalidArgument and kLimitExceeded
+    /// for a side, kUnsupported for a scene that runs code.
+    Result<void> drawThumbnail(ViewerId viewer, const v1::DrawThumbnail& message);
 
     /// Work done since the view began.
     struct Counts {
@@ -128,6 +133,8 @@ private:
     void picked(std::uint64_t tag, const Result<std::optional<scene::Picked>>& result);
 
     // The scene, shared_view.cpp. `author`: who did it, and knows; 0: nobody.
+    bool answerAgain(Viewer& viewer, scene::PictureSize size, std::uint64_t resizedBy,
+                     TimePoint now);
     void apply(SceneChange change, TimePoint now, ViewerId author, bool cameraOnly = false);
     [[nodiscard]] v1::ServerMessage sceneMessage(ViewerId author, bool cameraOnly) const;
     void tellScene(ViewerId author, bool cameraOnly);
@@ -161,11 +168,23 @@ private:
     [[nodiscard]] bool mayDraw(const std::shared_ptr<Rendition>& rendition) const;
     void draw(const std::shared_ptr<Rendition>& rendition, TimePoint now);
     void settle(std::uint64_t tag);
+    void pacedBy(const workers::RenderedFrame& frame, const RenditionKey& key);
 
+    [[nodiscard]] Result<void> mayMeasure(ViewerId viewer) const;
+    [[nodiscard]] v1::ServerMessage measureReport(bool ofAccuracy) const;
     void measureNext();
     void stopMeasuring(const std::string& why);
     void pickNext();
     void askPick(ViewerId viewer);
+    void thumbnailNext();
+    void askThumbnail(ViewerId viewer);
+    void thumbnailDrawn(const workers::RenderedFrame& frame);
+    void thumbnailFailed(std::uint64_t tag, const Error& error);
+    void thumbnailEncoded(std::uint64_t tag, v1::Codec codec,
+                          const Result<std::vector<std::byte>>& bytes);
+    void tellThumbnail(v1::Thumbnail answer);
+    void forgetThumbnails(ViewerId viewer);
+    void dropThumbnails();
     /// Null where it is gone.
     [[nodiscard]] Viewer* find(ViewerId viewer) const;
 
@@ -186,13 +205,15 @@ private:
 
     std::vector<std::shared_ptr<Rendition>> renditions_;  ///< The one drawn last is last.
     std::shared_ptr<Rendition> drawing_;  ///< Whose request is at the render service.
+    DrawPace drawPace_;
     std::uint64_t lastTag_ = 0;
     std::uint64_t lastPicture_ = 0;
     Counts counts_;
 
     std::map<const Rendition*, v1::Plan> plans_;  ///< Of the newest pictures.
     ViewAccuracy accuracy_;
-    ViewerId measures_ = 0;  ///< Who asked for what accuracy_ does.
+    ViewDifference difference_;  ///< Runs in the place of accuracy_.
+    ViewerId measures_ = 0;      ///< Who asked for what runs.
     struct Picking {
         v1::Pick asked;
         Viewer::Sent of;
@@ -200,6 +221,15 @@ private:
     std::map<ViewerId, Picking> picks_;  ///< The newest of each viewer.
     ViewerId picker_ = 0;                ///< Whose is at the render service; 0: nobody's.
     std::uint64_t pickTag_ = 0;
+    struct Sketch {
+        std::uint32_t request = 0;
+        scene::Scene scene;
+        scene::PictureSize size{1};
+    };
+    std::map<ViewerId, Sketch> thumbnails_;  ///< The newest of each viewer.
+    ViewerId thumbnailOf_ = 0;               ///< Whose is under way; 0: nobody's.
+    std::uint64_t thumbnailTag_ = 0;
+    std::uint64_t thumbnailView_ = 0;  ///< At the render service; 0: none yet.
 };
 
 }  // namespace volcast::session

@@ -9,6 +9,7 @@
 namespace volcast::session {
 
 void SharedView::place(Viewer& viewer) {
+    viewer.limitDrawing(drawPace_.level(viewer.size()), drawPace_.reason(viewer.size()));
     const RenditionKey key = viewer.wanted();
     if (viewer.rendition && viewer.rendition->key() == key) return;
     const auto found =
@@ -64,8 +65,11 @@ void SharedView::draw(const std::shared_ptr<Rendition>& rendition, TimePoint now
     std::ranges::stable_partition(renditions_,
                                   [&rendition](const auto& one) { return one != rendition; });
     ++counts_.drawsAsked;
-    workers::RenderRequest request{
-        .view = global_, .tag = lastTag_, .scene = *state_.scene, .size = rendition->key().size};
+    workers::RenderRequest request{.view = global_,
+                                   .tag = lastTag_,
+                                   .scene = *state_.scene,
+                                   .size = rendition->key().size,
+                                   .viewId = id_};
     if (!rendition->key().fullAccuracy) {
         request.scene.accuracy = {.kind = scene::Accuracy::Kind::kFastest};
     }
@@ -103,7 +107,14 @@ void SharedView::rendered(const workers::RenderedFrame& frame) {
         // Without a credit it sleeps until an ack, or until it may be probed.
         if (!encodeFor(*viewer, now)) wake(*viewer);
     }
+    pacedBy(frame, drawn->picture()->key);
     advance(now);
+}
+
+void SharedView::pacedBy(const workers::RenderedFrame& frame, const RenditionKey& key) {
+    if (!frame.drawn || !drawPace_.drawn(key.size, key.fullAccuracy, frame.drawMs)) return;
+    // All together, so that no two levels are drawn for long.
+    for (const auto& [id, viewer] : viewers_) place(*viewer);
 }
 
 void SharedView::failed(std::uint64_t tag, const Error& error) {

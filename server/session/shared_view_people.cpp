@@ -61,12 +61,14 @@ void SharedView::unseat(ViewerId id) {
     const bool first = viewers_.begin()->first == id;
     picks_.erase(id);
     if (picker_ == id) pickNext();
+    forgetThumbnails(id);
     viewers_.erase(id);
     dropUnused();
     if (viewers_.empty()) {
         emptySince_ = Clock::now();
         drawing_.reset();
         outbox_.put([&render = parts_.render, view = global_] { render.dropView(view); });
+        dropThumbnails();
     } else if (first) {
         refresh(Clock::now());  // News that it alone would have brought.
     }
@@ -179,6 +181,7 @@ void SharedView::openRestored(TimePoint now) {
     if (!restored_) return;
     const SavedView saved = *std::exchange(restored_, std::nullopt);
     const auto change = scene_.put(saved.scene, saved.inputSeq);
+    history_.restore(saved.history);
     state_.inputAt = now;
     if (change) return apply(*change, now, 0);
     for (const auto& [id, viewer] : viewers_) {
@@ -191,7 +194,8 @@ std::optional<SavedView> SharedView::save() const {
     if (ended_ || (!restored_ && !state_.scene)) return std::nullopt;
     SavedView saved{.id = id_,
                     .inputSeq = restored_ ? restored_->inputSeq : scene_.shownSeq(),
-                    .scene = restored_ ? restored_->scene : *state_.scene};
+                    .scene = restored_ ? restored_->scene : *state_.scene,
+                    .history = restored_ ? restored_->history : history_.save()};
     for (const auto& [id, member] : people_.all()) {
         saved.people.push_back({.member = member, .steers = people_.steers(id)});
     }

@@ -3,6 +3,7 @@
 #include <set>
 #include <utility>
 
+#include "renderer/scene/user_controls.h"
 #include "renderer/worker/pick_message.h"
 #include "server/session/shared_view.h"
 #include "server/session/wire.h"
@@ -33,25 +34,39 @@ Result<v1::Plan> SharedView::explain(ViewerId id) const {
     return message;
 }
 
+/// Errors: kNotFound where there is nothing to measure.
+Result<void> SharedView::mayMeasure(ViewerId id) const {
+    const Viewer* viewer = find(id);
+    if (viewer == nullptr) return notThere();
+    if (state_.scene && plans_.contains(viewer->rendition.get())) return {};
+    return fail(
+        ErrorCode::kNotFound,
+        "view " + std::to_string(viewer->number()) + " has no picture yet that could be measured",
+        "view");
+}
+
 Result<void> SharedView::measure(ViewerId id, const v1::MeasureAccuracy& message) {
     const Turn turn{*this};
-    if (find(id) == nullptr) return notThere();
-    const Viewer& viewer = *find(id);
-    const std::string name = "view " + std::to_string(viewer.number());
     if (message.stop()) {
-        if (measures_ == id) stopMeasuring("stopped by the client");
+        if (find(id) == nullptr) return notThere();
+        if (measures_ == id && accuracy_.running()) stopMeasuring("stopped by the client");
         return boost::system::in_place_value;
     }
-    if (!state_.scene || !plans_.contains(viewer.rendition.get())) {
-        return fail(ErrorCode::kNotFound, name + " has no picture yet that could be measured",
-                    "view");
-    }
+    if (const auto may = mayMeasure(id); !may) return may;
+    const Viewer& viewer = *find(id);
+    const std::string name = "view " + std::to_string(viewer.number());
     stopMeasuring("measured anew");
     std::set<std::string> volumes;
     for (const auto& [dataset, summary] : parts_.catalogue.summaries(scene_.datasets())) {
         if (!summary.isMesh) volumes.insert(dataset);
     }
-    accuracy_.start(*state_.scene, viewer.size(), message.max_pixels(), volumes);
+    if (message.estimate()) {
+        accuracy_.startEstimates(*state_.scene, viewer.size());
+    } else if (message.effects()) {
+        accuracy_.startEffects(*state_.scene, viewer.size(), plans_.at(viewer.rendition.get()));
+    } else {
+        accuracy_.start(*state_.scene, viewer.size(), message.max_pixels(), volumes);
+    }
     if (!accuracy_.running()) {
         return fail(ErrorCode::kUnsupported, name + " has no visible layer to measure", "view");
     }
@@ -60,34 +75,65 @@ Result<void> SharedView::measure(ViewerId id, const v1::MeasureAccuracy& message
     return boost::system::in_place_value;
 }
 
+Result<void> SharedView::measureDifference(ViewerId id, const v1::MeasureDifference& message) {
+    const Turn turn{*this};
+    if (message.stop()) {
+        if (find(id) == nullptr) return notThere();
+        if (measures_ == id && difference_.running()) stopMeasuring("stopped by the client");
+        return boost::system::in_place_value;
+    }
+    if (const auto may = mayMeasure(id); !may) return may;
+    for (std::size_t i = 0; i < state_.scene->layers.size(); ++i) {
+        const scene::Layer& layer = state_.scene->layers[i];
+        if (!layer.visible || !scene::runsUserCode(layer)) continue;
+        return fail(ErrorCode::kUnsupported,
+                    "layer " + layer.id + " is drawn by code, for which there is no reference",
+                    "scene.layers[" + std::to_string(i) + "].shader");
+    }
+    stopMeasuring("measured anew");
+    difference_.start(*state_.scene, find(id)->size(), state_.inputSeq, message, Clock::now());
+    measures_ = id;
+    measureNext();
+    return boost::system::in_place_value;
+}
+
+v1::ServerMessage SharedView::measureReport(bool ofAccuracy) const {
+    const std::uint32_t number = find(measures_)->number();  // Nothing runs for one that left.
+    v1::ServerMessage message;
+    if (ofAccuracy) {
+        *message.mutable_accuracy_report() = accuracy_.report(number);
+    } else {
+        *message.mutable_difference_report() = difference_.report(number);
+    }
+    return message;
+}
+
 void SharedView::measured(std::uint64_t tag, const Result<accuracy::Measurement>& result) {
     const Turn turn{*this};
-    if (!accuracy_.measured(tag, result)) return;
-    v1::ServerMessage message;
-    Viewer& viewer = *find(measures_);  // Nothing runs for one that left.
-    *message.mutable_accuracy_report() = accuracy_.report(viewer.number());
-    tell(viewer, std::move(message));
-    if (accuracy_.running()) return measureNext();
+    const bool ofAccuracy = accuracy_.measured(tag, result);
+    if (!ofAccuracy && !difference_.measured(tag, result, Clock::now())) return;
+    tell(*find(measures_), measureReport(ofAccuracy));
+    if (accuracy_.running() || difference_.running()) return measureNext();
     measures_ = 0;
 }
 
 void SharedView::measureNext() {
     std::uint64_t tag = 0;
-    accuracy::Job job = accuracy_.job(tag);
+    accuracy::Job job = accuracy_.running() ? accuracy_.job(tag) : difference_.job(tag);
     outbox_.put([this, tag, job = std::move(job)]() mutable {
         parts_.render.measure({.view = global_, .tag = tag, .job = std::move(job)});
     });
 }
 
 void SharedView::stopMeasuring(const std::string& why) {
-    if (!accuracy_.running()) return;
-    accuracy_.stop();
+    const bool ofAccuracy = accuracy_.running();
+    if (!ofAccuracy && !difference_.running()) return;
+    if (ofAccuracy) accuracy_.stop();
+    if (!ofAccuracy) difference_.stop(why);
     outbox_.put([this] { parts_.render.stopMeasuring(global_); });
-    Viewer& viewer = *find(std::exchange(measures_, 0));
-    v1::ServerMessage message;
-    *message.mutable_accuracy_report() = accuracy_.report(viewer.number());
-    message.mutable_accuracy_report()->set_stopped(why);
-    tell(viewer, std::move(message));
+    v1::ServerMessage message = measureReport(ofAccuracy);
+    if (ofAccuracy) message.mutable_accuracy_report()->set_stopped(why);
+    tell(*find(std::exchange(measures_, 0)), std::move(message));
 }
 
 Result<void> SharedView::pick(ViewerId id, const v1::Pick& message) {

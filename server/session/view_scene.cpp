@@ -72,6 +72,21 @@ Result<scene::PictureSize> sizeFrom(const v1::Viewport& message, std::uint64_t m
     return size;
 }
 
+Result<scene::Scene> readyScene(const v1::Scene& message, Catalogue& catalogue) {
+    auto scene = worker::sceneFrom(message);
+    if (!scene) return std::move(scene).error();
+    for (const std::string& id : datasetsOf(*scene)) {
+        const auto standing = catalogue.require(id);
+        if (!standing) return fail(standing.error().code, standing.error().message, "layers");
+        if (!standing->loaded) {
+            return fail(ErrorCode::kNotFound, id + " is not loaded yet", "layers");
+        }
+    }
+    const auto summaries = catalogue.summaries(datasetsOf(*scene));
+    if (auto valid = scene::validate(*scene, summaries); !valid) return std::move(valid).error();
+    return scene;
+}
+
 Result<bool> ViewScene::require(const Waiting& next) {
     bool loaded = true;
     for (const std::string& id : next.datasets()) {
@@ -144,10 +159,17 @@ Result<SceneChange> ViewScene::update(const v1::Update& message) {
         camera = *wanted;
     }
     SceneChange change = scene_ ? SceneChange::kDraw : SceneChange::kWaiting;
+    if (scene_ && !waiting_ && !message.has_scene() && (!camera || *camera == scene_->camera)) {
+        change = SceneChange::kSame;
+    }
     if (message.has_scene()) {
         auto scene = worker::sceneFrom(message.scene());
         if (!scene) return within("scene", scene.error());
         if (camera) scene->camera = *camera;
+        if (scene_ && !waiting_ && *scene == *scene_) {
+            inputSeq_ = message.input_seq();
+            return SceneChange::kSame;
+        }
         auto accepted = accept({.scene = std::move(*scene), .seqBefore = shownSeq()});
         if (!accepted) return accepted.error();
         change = *accepted;

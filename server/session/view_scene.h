@@ -15,6 +15,7 @@ namespace volcast::session {
 /// What an accepted message or a change of data did to a view.
 enum class SceneChange {
     kNone,     ///< Nothing to draw: an old update, or news about other data.
+    kSame,     ///< A newer update, but of what the scene is already.
     kDraw,     ///< There is something new to draw.
     kWaiting,  ///< The new scene needs data that is being imported; the old one stays.
 };
@@ -22,6 +23,10 @@ enum class SceneChange {
 /// Errors: kInvalidArgument for a side out of range, kLimitExceeded for too many pixels, with
 /// `field` relative to the message.
 Result<scene::PictureSize> sizeFrom(const v1::Viewport& message, std::uint64_t maxPixels);
+
+/// Reads a scene that is to be drawn at once. Errors: as sceneFrom() and scene::validate();
+/// kNotFound for data that is unknown or not loaded; `field` relative to the scene.
+Result<scene::Scene> readyScene(const v1::Scene& message, Catalogue& catalogue);
 
 /// What one view shows: its last good scene, and the one that waits for data.
 ///

@@ -25,12 +25,14 @@ Viewer::Viewer(Desc desc) : desc_{std::move(desc)} {
 RenditionKey Viewer::wanted() const {
     if (resting_) return full();
     const PaceLevel level = pacing_.level();
-    return {.size = {scaled(desc_.size.x, level.scale), scaled(desc_.size.y, level.scale)},
-            .fullAccuracy = level.fullAccuracy};
+    const double scale = pins_.scale ? level.scale : std::min(level.scale, drawLimit_.scale);
+    return {.size = {scaled(desc_.size.x, scale), scaled(desc_.size.y, scale)},
+            .fullAccuracy = level.fullAccuracy && (pins_.fullAccuracy || drawLimit_.fullAccuracy)};
 }
 
 void Viewer::setPins(const PacePins& pins, v1::Codec codec) {
     pinnedCodec_ = codec;
+    pins_ = pins;
     PacePins all = pins;
     if (codec != v1::CODEC_UNSPECIFIED) all.video = isVideo(codec);
     pacing_.setPins(all);
@@ -68,7 +70,13 @@ bool Viewer::hasNewPicture() const {
 }
 
 bool Viewer::waits() const {
-    return rendition->wants() || hasNewPicture();
+    return rendition->wants() || hasNewPicture() || sendsAgain_;
+}
+
+bool Viewer::shows(const std::shared_ptr<const scene::Scene>& scene) const {
+    return state == v1::VIEW_STATE_ACTIVE && rendition->settled() && !hasNewPicture() &&
+           rendition->picture()->scene == scene && rendition->picture()->key == wanted() &&
+           (exact_ || !isVideo(interactive().codec));
 }
 
 bool Viewer::owes() const {
@@ -120,6 +128,11 @@ std::shared_ptr<Encoding> Viewer::takeEncode(TimePoint now) {
         taken_ = rendition->picture()->number;
         again_ = false;
         pacing_.started(now);
+    } else if (sendsAgain_ && rendition->settled()) {
+        if (now < pacing_.nextStart()) return nullptr;
+        format = exact_ ? Format{.codec = desc_.codecs.lossless(slowWay())} : interactive();
+        again_ = true;
+        pacing_.started(now);
     } else if (owesLossless() && now >= calmAt()) {
         format.codec = desc_.codecs.lossless(slowWay());
         again_ = true;
@@ -155,7 +168,9 @@ v1::Pace Viewer::paceOf(const Encoding& encoding, TimePoint now) const {
     pace.set_rtt_min_ms(ms(report.shortestRoundTrip));
     pace.set_queue_delay_ms(ms(report.queueDelay));
     pace.set_bytes_per_s(report.bytesPerS);
-    pace.set_reason(report.reason);
+    const bool limited = !whyLimited_.empty() && key != full();
+    const char* between = limited && !report.reason.empty() ? "; " : "";
+    pace.set_reason(report.reason + between + (limited ? whyLimited_ : ""));
     return pace;
 }
 
@@ -164,6 +179,9 @@ v1::FrameHeader Viewer::headerOf(const Encoding& encoding, TimePoint now) const 
     const RenditionKey& key = encoding.picture->key;
     if (key == wanted() || key == full()) {
         header.set_input_seq(std::max(header.input_seq(), resizedBy_));
+    }
+    if (encoding.picture->scene == stays_.scene) {
+        header.set_input_seq(std::max(header.input_seq(), stays_.seq));
     }
     header.set_codec(encoding.format.codec);
     header.set_lossless(isLossless(encoding.format.codec));
@@ -192,6 +210,7 @@ std::optional<ReadyFrame> Viewer::takeFrame(TimePoint now) {
     sent_.push_back({.inputSeq = frame.header.input_seq(),
                      .size = encoding_->picture->pixels->size,
                      .scene = encoding_->picture->scene});
+    if (frame.header.input_seq() >= stays_.seq) sendsAgain_ = false;
     encoding_.reset();
     again_ = false;
     pacing_.sent(frame.sequence, frame.payload->size(), now);

@@ -5,8 +5,11 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
+#include <utility>
 
 #include "server/session/client_codecs.h"
+#include "server/session/draw_pace.h"
 #include "server/session/mail.h"
 #include "server/session/pacing.h"
 #include "server/session/rendition.h"
@@ -58,6 +61,11 @@ public:
     [[nodiscard]] std::uint64_t resizedBy() const noexcept { return resizedBy_; }
     void setPins(const PacePins& pins, v1::Codec codec);
     void setCodecs(const ClientCodecs& codecs);
+    /// What drawing allows while the view moves, and why; what is pinned stays.
+    void limitDrawing(const DrawLevel& limit, std::string why) {
+        drawLimit_ = limit;
+        whyLimited_ = std::move(why);
+    }
     [[nodiscard]] const ClientCodecs& codecs() const noexcept { return desc_.codecs; }
     /// Where it has been left alone for long enough, the picture in full is wanted from now on.
     void rest(TimePoint now);
@@ -65,6 +73,15 @@ public:
     void moveTo(std::shared_ptr<Rendition> to);
     [[nodiscard]] scene::PictureSize size() const noexcept { return desc_.size; }
 
+    /// The newest picture is of this very scene as wanted, was sent, and nothing is on its way
+    /// that is to replace it. Not where it is part of a video, which no picture may enter twice.
+    [[nodiscard]] bool shows(const std::shared_ptr<const scene::Scene>& scene) const;
+    /// Inputs up to `seq` left the scene as it is: frames of it say so.
+    void stays(std::shared_ptr<const scene::Scene> scene, std::uint64_t seq) {
+        stays_ = {.scene = std::move(scene), .seq = seq};
+    }
+    /// The newest picture is to be sent once more, as it was.
+    void sendAgain() noexcept { sendsAgain_ = true; }
     /// Somebody did something: a lossless frame waits for calm from now on.
     void input(TimePoint now);
     /// A picture drawn now would soon be sent.
@@ -125,11 +142,19 @@ private:
 
     Desc desc_;
     Pacing pacing_;
+    PacePins pins_;
+    DrawLevel drawLimit_;
+    std::string whyLimited_;
     v1::Codec pinnedCodec_ = v1::CODEC_UNSPECIFIED;
     bool resting_ = false;  ///< The picture is wanted in full.
     Rendition::InVideo video_;
     std::size_t losslessBytes_ = 0;  ///< Of its last lossless frame.
     std::uint64_t resizedBy_ = 0;
+    struct {
+        std::shared_ptr<const scene::Scene> scene;
+        std::uint64_t seq = 0;
+    } stays_;
+    bool sendsAgain_ = false;
     TimePoint lastInput_{};
     std::uint64_t taken_ = 0;             ///< Number of the picture it took last.
     std::uint64_t shownSeq_ = 0;          ///< Newest input that it was sent a picture of.

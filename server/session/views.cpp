@@ -104,6 +104,11 @@ void Views::left(const std::shared_ptr<SharedView>& view) {
     if (view->abandoned(now)) erase(found);
 }
 
+void Views::tidy() {
+    const std::lock_guard lock{mutex_};
+    sweep(Clock::now());
+}
+
 std::size_t Views::size() {
     const std::lock_guard lock{mutex_};
     return views_.size();

@@ -44,6 +44,8 @@ public:
     [[nodiscard]] Result<Link> link(const std::string& text) const;
     /// Somebody left: ends the view where it is for nobody any more.
     void left(const std::shared_ptr<SharedView>& view);
+    /// Ends the views that nobody has been in for `keep`; to be called now and then.
+    void tidy();
     /// Saves and ends all views.
     void clear();
 

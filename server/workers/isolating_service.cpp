@@ -11,6 +11,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include "renderer/base/printable.h"
 #include "renderer/scene/user_controls.h"
 #include "server/workers/quarantine.h"
 
@@ -31,6 +32,7 @@ struct OwnService {
     std::optional<RenderRequest> waiting;
     std::deque<std::pair<std::uint64_t, scene::Scene>> asked;  ///< Newest tags and their scenes.
     bool ended = false;  ///< While it starts: nobody wants it any more.
+    std::string viewId = {};
 };
 
 class IsolatingService final : public RenderService {
@@ -113,8 +115,16 @@ public:
         (isOwn ? own->second->service : shared_)->injectFault(view, fault);
     }
 
-    /// Of the worker that most views share.
-    [[nodiscard]] RenderStatus status() const override { return shared_->status(); }
+    /// Of the worker that most views share; all that wait.
+    [[nodiscard]] RenderStatus status() const override {
+        RenderStatus status = shared_->status();
+        const std::scoped_lock lock{mutex_};
+        for (const auto& [view, own] : own_) {
+            if (own->service) status.viewsWaiting += own->service->status().viewsWaiting;
+            if (own->waiting) ++status.viewsWaiting;
+        }
+        return status;
+    }
 
 private:
     /// Why the request is refused; nothing where it was taken.
@@ -134,6 +144,7 @@ private:
         }
         const bool fresh = own == nullptr;
         if (fresh) own = std::make_shared<OwnService>();
+        own->viewId = request.viewId;
         own->asked.emplace_back(request.tag, request.scene);
         if (own->asked.size() > kMostRemembered) own->asked.pop_front();
         if (own->service) {
@@ -175,11 +186,19 @@ private:
             if (error.code == ErrorCode::kDeviceLost) {
                 const std::scoped_lock lock{mutex_};
                 error = quarantine(view, tag, std::move(error));
-                spdlog::warn("view {}: {}", view, error.message);
+                spdlog::warn(R"(event=view_failed view={} error="{}")", nameOf(view),
+                             base::printable(error.message, 1000));
             }
             events_.failed(of, tag, std::move(error));
         };
         return events;
+    }
+
+    /// As the log calls it. Needs the lock.
+    [[nodiscard]] std::string nameOf(std::uint64_t view) const {
+        const auto own = own_.find(view);
+        const bool named = own != own_.end() && !own->second->viewId.empty();
+        return named ? own->second->viewId : std::to_string(view);
     }
 
     /// Takes the code of a request over which two workers were lost out of use; the error that
@@ -218,7 +237,7 @@ private:
 
     RenderEvents events_;
     RenderSettings settings_;
-    std::mutex mutex_;  ///< Of all below but `shared_`; services call back without it.
+    mutable std::mutex mutex_;  ///< Of all below but `shared_`; services call back without it.
     std::unique_ptr<RenderService> shared_;
     std::map<std::string, base::FileDescriptor> datasets_;
     std::map<std::uint64_t, std::shared_ptr<OwnService>> own_;

@@ -32,6 +32,8 @@ struct RenderRequest {
     scene::Scene scene;
     scene::PictureSize size{512, 512};
     bool wantFloat = false;
+    std::string viewId = {};  ///< What the log calls the view.
+    bool background = false;  ///< Drawn when no view waits for a picture.
 };
 
 /// One candidate of a picture to measure, in the name of a view.
@@ -95,8 +97,9 @@ struct RenderStatus {
     std::uint32_t starts =
         0;  ///< Worker processes started, those that never became ready included.
     bool spareReady = false;
-    int workerPid = 0;  ///< Of the one that draws now; 0: none.
-    int sparePid = 0;   ///< Of the one that waits, ready or not; 0: none.
+    int workerPid = 0;             ///< Of the one that draws now; 0: none.
+    int sparePid = 0;              ///< Of the one that waits, ready or not; 0: none.
+    std::size_t viewsWaiting = 0;  ///< For their turn.
     std::string glRenderer, glVersion;
     std::string lastLoss;    ///< "killed by signal 9", "missed its deadline of 10000 ms".
     std::string gpuGivenUp;  ///< Why the software device draws in the place of a GPU; empty: no.

@@ -8,6 +8,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include "renderer/base/printable.h"
 #include "renderer/worker/exit_codes.h"
 #include "renderer/worker/frame_message.h"
 #include "renderer/worker/measure_message.h"
@@ -74,6 +75,7 @@ bool Supervisor::turn(const std::function<Inbox()>& take) {
     checkTimes();
     startWorkers();
     dispatch();
+    rehearse();
     reapDying();
     return true;
 }
@@ -124,6 +126,7 @@ void Supervisor::accept(Inbox& inbox) {
         stopMeasure(view);
         picks_.erase(view);
         if (main_) main_->dropView(view);
+        if (spare_) spare_->dropView(view);
     }
     for (auto& [view, timed] : inbox.requests) {
         submit(std::move(timed));
@@ -191,6 +194,8 @@ void Supervisor::handle(Worker& worker, const WorkerProcess::Answer& answer) {
         startError_ = worker::errorFrom(answer.failed());
         return lose(worker, startError_->message);
     }
+    if (answer.has_failed() && rehearsal_.ended(answer.failed().request())) return;
+    if (answer.has_rendered() && rehearsal_.ended(answer.rendered().request())) return;
     if (answer.has_failed()) return refuse(answer.failed());
     if (answer.has_rendered()) return finish(answer.rendered());
     if (answer.has_measuring()) return continueMeasure(answer.measuring().request());
@@ -213,9 +218,9 @@ void Supervisor::becomeReady(Worker& worker) {
     startError_.reset();
     backOff_.succeeded();
     software_ = worker->about().software();
-    spdlog::info("GL worker {} ready after {:.0f} ms: {} ({})", worker->pid(),
-                 worker->about().start_ms(), worker->about().gl_renderer(),
-                 &worker == &main_ ? "drawing" : "spare");
+    spdlog::info(R"(event=worker_ready worker={} role={} start_ms={:.0f} gl_renderer="{}")",
+                 worker->pid(), &worker == &main_ ? "drawing" : "spare", worker->about().start_ms(),
+                 base::printable(worker->about().gl_renderer()));
     if (&worker == &spare_) worker->warmUp(0, settings_.startDeadline);
 }
 
@@ -263,7 +268,8 @@ void Supervisor::finish(const internal::v1::Rendered& rendered) {
 void Supervisor::refuse(const internal::v1::Failed& failed) {
     Error error = worker::errorFrom(failed);
     if (failed.request() == 0) {
-        spdlog::error("dataset {}: {}", failed.dataset(), error.message);
+        spdlog::error(R"(event=dataset_refused dataset="{}" error="{}")",
+                      base::printable(failed.dataset()), base::printable(error.message, 1000));
         return;
     }
     if (measures_.inHand()) return finishMeasure(failed.request(), error);
@@ -339,13 +345,14 @@ RenderStatus Supervisor::status() const {
     status.generation = generation_;
     status.losses = losses_;
     status.starts = starts_;
-    status.spareReady = spare_ && spare_->ready() && spare_->warm();
+    status.spareReady = spareReady();
     status.workerPid = main_ ? main_->pid() : 0;
     status.sparePid = spare_ ? spare_->pid() : 0;
     if (status.ready) {
         status.glRenderer = main_->about().gl_renderer();
         status.glVersion = main_->about().gl_version();
     }
+    status.viewsWaiting = views_.waiting();
     status.lastLoss = lastLoss_;
     status.gpuGivenUp = gpuGivenUp_;
     return status;

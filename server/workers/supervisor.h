@@ -9,6 +9,7 @@
 #include "server/workers/gpu_trust.h"
 #include "server/workers/measure_queue.h"
 #include "server/workers/private_folder.h"
+#include "server/workers/rehearsal.h"
 #include "server/workers/view_queue.h"
 #include "server/workers/worker_process.h"
 
@@ -86,6 +87,10 @@ private:
     bool dispatchPick();  ///< False: none waits.
     void finishPick(std::uint64_t number, const Result<std::optional<scene::Picked>>& result);
     void tell(const PickRequest& request, const Result<std::optional<scene::Picked>>& result) const;
+    /// Lets the spare draw what the main worker drew last, where it would draw that in a new way.
+    void rehearse();
+    [[nodiscard]] bool spareReady() const;
+    [[nodiscard]] bool mayRehearse(const RenderRequest& request) const;
     void checkTimes();
     void startWorkers();
     void start(Worker& worker);
@@ -114,6 +119,7 @@ private:
     std::vector<ChildProcess> dying_;
     std::map<std::string, SharedDescriptor> datasets_;
     ViewQueue views_;
+    Rehearsal rehearsal_;
     std::optional<InFlight> inFlight_;
     MeasureQueue measures_;                       ///< Nothing is in hand beside inFlight_.
     std::uint64_t measureNumber_ = 0;             ///< Of the part in hand.

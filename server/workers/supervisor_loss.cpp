@@ -4,6 +4,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include "renderer/base/printable.h"
 #include "renderer/base/software_gpu.h"
 #include "server/workers/gpu_given_up.h"
 #include "server/workers/supervisor.h"
@@ -18,6 +19,7 @@ constexpr int kFailuresToGiveUp = 3;
 }  // namespace
 
 void Supervisor::retire(Worker& worker) {
+    rehearsal_.workerLost(worker->pid());
     ChildProcess child = worker->takeChild();
     worker.reset();
     child.kill();
@@ -34,7 +36,7 @@ void Supervisor::judgeGpu(const std::string& reason) {
     gpuGivenUp_ = "the GPU" + (settings_.gpu.empty() ? "" : " " + settings_.gpu) + " lost " +
                   std::to_string(GpuTrust::kMostLosses) + " workers, the last of which " + reason +
                   "; new ones draw by the CPU";
-    spdlog::error("{}", gpuGivenUp_);
+    spdlog::error(R"(event=gpu_given_up reason="{}")", base::printable(gpuGivenUp_, 1000));
     noteGpuGivenUp(cacheFolder_, gpuGivenUp_);
     settings_.gpu = base::kSoftwareGpu;
     if (spare_) retire(spare_);
@@ -50,7 +52,12 @@ void Supervisor::lose(Worker& worker, const std::string& reason) {
     if (wasReady) {
         ++losses_;
         lastLoss_ = reason;
-        spdlog::warn("GL worker {} ({}) {}", pid, isMain ? "drawing" : "spare", reason);
+        spdlog::warn(R"(event=worker_lost worker={} role={} view={} reason="{}")", pid,
+                     isMain ? "drawing" : "spare",
+                     isMain && inFlight_ && !inFlight_->request.viewId.empty()
+                         ? inFlight_->request.viewId
+                         : "none",
+                     base::printable(reason, 1000));
         spareAllowed_ = Clock::now() + kSpareDelay;
         if (isMain) return loseMain();
     }
@@ -103,8 +110,8 @@ void Supervisor::startFailed(const Error& error) {
     backOff_.failed();
     startAllowed_ = spareAllowed_ = Clock::now() + backOff_.delay();
     if (!everReady_) return;  // begin() hands the error to its caller.
-    spdlog::error("GL worker cannot be started: {}; next try in {} ms", error.message,
-                  backOff_.delay().count());
+    spdlog::error(R"(event=worker_start_failed next_try_ms={} error="{}")",
+                  backOff_.delay().count(), base::printable(error.message, 1000));
     if (main_ || backOff_.failures() < kFailuresToGiveUp) return;
     const Error lost =
         fail(ErrorCode::kDeviceLost, "the lost GL worker cannot be replaced: " + error.message);

@@ -53,8 +53,11 @@ void ViewQueue::drop(std::uint64_t view) {
 
 std::optional<TimedRequest> ViewQueue::next() {
     if (turns_.empty()) return std::nullopt;
-    View& view = views_.at(turns_.front());
-    turns_.pop_front();
+    auto turn = std::ranges::find_if(
+        turns_, [this](std::uint64_t id) { return !views_.at(id).waiting->request.background; });
+    if (turn == turns_.end()) turn = turns_.begin();
+    View& view = views_.at(*turn);
+    turns_.erase(turn);
     return std::exchange(view.waiting, std::nullopt);
 }
 
@@ -62,7 +65,13 @@ void ViewQueue::succeeded(RenderRequest drawn) {
     const auto found = views_.find(drawn.view);
     if (found == views_.end()) return;
     found->second.lossesInARow = 0;
+    lastDrawn_ = drawn.view;
     found->second.lastGood = std::move(drawn);
+}
+
+const RenderRequest* ViewQueue::lastDrawn() const {
+    const auto view = views_.find(lastDrawn_);
+    return view != views_.end() && view->second.lastGood ? &*view->second.lastGood : nullptr;
 }
 
 void ViewQueue::refused(std::uint64_t view) {

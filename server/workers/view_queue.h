@@ -37,10 +37,15 @@ public:
     void drop(std::uint64_t view);
     [[nodiscard]] bool knows(std::uint64_t view) const { return views_.contains(view); }
 
-    /// Takes the request whose turn it is. It is in flight until one of the calls below.
+    /// Views with a request that has not been taken.
+    [[nodiscard]] std::size_t waiting() const noexcept { return turns_.size(); }
+    /// Takes the request whose turn it is, one in the background where there is no other. It is in
+    /// flight until one of the calls below.
     std::optional<TimedRequest> next();
     /// `drawn` is now the view's last good request.
     void succeeded(RenderRequest drawn);
+    /// The newest good request of all views; null where there is none.
+    [[nodiscard]] const RenderRequest* lastDrawn() const;
     /// The worker refused the request, and lived.
     void refused(std::uint64_t view);
 
@@ -80,6 +85,7 @@ private:
 
     std::map<std::uint64_t, View> views_;
     std::deque<std::uint64_t> turns_;  ///< Views with a waiting request, each once.
+    std::uint64_t lastDrawn_ = 0;      ///< View of the newest good request.
 };
 
 }  // namespace volcast::workers

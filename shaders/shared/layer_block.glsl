@@ -28,4 +28,6 @@ struct LayerBlock {
     vec4 sections;           // cross-sections: grid coordinates of where they meet; w: bit i: the one across axis i is shown
     vec4 reflection;         // of it: ambient, diffuse, specular, exponent
     vec4 jitter;             // voxels: x, y: lower and upper 16 bits of the seed
+    vec4 shownLow;           // voxels: corners of the box outside of which nothing shows, grid coordinates,
+    vec4 shownHigh;          // where rays pass over empty space; the first is above: nothing shows
 };

@@ -1,19 +1,14 @@
 // Where nothing shows of a volume: see renderer/volume/empty_space.h.
-// Constants: kRangeBlock; those of volume/voxels.glsl.
-#include "shared/empty_space.glsl"
-#include "volume/voxels.glsl"
+// Constants: kRangeBlock.
+#include "lib/layer.glsl"
 
 layout(binding = kEmptySpaceUnit) uniform usamplerBuffer emptySpace;  // bytes: blocks, x fastest
 
-ivec3 lastApart = lastPoint() / kRangeBlock;
+// Computed before any loop, because llvmpipe reads a uniform again in each round: see
+// classify/transfer_function.glsl.
+ivec3 lastApart = (ivec3(layer.grid.xyz + max(-gl_FragCoord.x, 0.0)) - 1) / kRangeBlock;
 int apartRow = lastApart.x + 1;
 int apartLayer = apartRow * (lastApart.y + 1);
-
-// A corner of the box outside of which nothing shows.
-vec3 shownCorner(int first) {
-    return uintBitsToFloat(uvec3(texelFetch(emptySpace, first).r, texelFetch(emptySpace, first + 1).r,
-                                 texelFetch(emptySpace, first + 2).r));
-}
 
 // How far a ray goes on from a point in the box without meeting anything that shows: world units,
 // where `perGrid` has those that each axis takes for a grid interval. `shows`: the point's own block
@@ -21,7 +16,7 @@ vec3 shownCorner(int first) {
 float emptyFrom(vec3 at, vec3 perGrid, out bool shows) {
     ivec3 block = min(ivec3(at * (1.0 / float(kRangeBlock))), lastApart);
     int index = block.z * apartLayer + block.y * apartRow + block.x;
-    uint word = texelFetch(emptySpace, kEmptySpaceHead + (index >> 2)).r;
+    uint word = texelFetch(emptySpace, index >> 2).r;
     float apart = float(word >> (8 * (index & 3)) & 255u);
     shows = apart == 0.0;
     // Blocks that are nearer along each axis show nothing: to the wall that the ray leaves them by.

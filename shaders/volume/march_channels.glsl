@@ -1,23 +1,21 @@
 // Rays that march through several channels of a volume, each in the colours of its own map, blended
-// over what is there. Equal steps over the exact length of the ray in the box; a step's matter is
-// that of one sample in it, by default in its middle. Steps that cannot add to the ray, because no
-// channel can, are passed over as in volume/march_ray.glsl.
+// over what is there. By the steps of volume/steps.glsl; a step's matter is that of one sample in it, by
+// default in its middle. Steps that cannot add to the ray, because no channel can, are passed over as in
+// volume/march_ray.glsl.
 //
 // Where matter of several channels is in one place, extinctions add up, and each emits its colour
 // times its extinction: that is what many small grains of each would do. A light falls on each by the
 // slope of its own field, before they are added. Of maxima and minima each channel has its own, and
 // their colours add up.
-// Constants: kChannels, 1 to 4; kGathers: what of the model; kEarlyStop; kSkipBricks; kShaded; kJitters;
-// kInterval: channels have intervals; kMissing: voxels may have no value; kMaxRaySamples; those of
-// lib/window.glsl, volume/channel_ranges.glsl and classify/channel_maps.glsl.
+// Constants: kChannels, 1 to 4; kGathers: what of the model; kEarlyStop; kSkipBricks; kShaded; kInterval:
+// channels have intervals; kMissing: voxels may have no value; those of volume/steps.glsl,
+// volume/channel_ranges.glsl and classify/channel_maps.glsl.
 #include "contract/segment.glsl"
-#include "lib/box.glsl"
 #include "lib/finished.glsl"
-#include "lib/jitter.glsl"
 #include "lib/light.glsl"
-#include "lib/window.glsl"
 #include "classify/channel_maps.glsl"
 #include "volume/channel_ranges.glsl"
+#include "volume/steps.glsl"
 
 const int kVolume = 0;
 const int kMip = 1;
@@ -33,8 +31,6 @@ ChannelMap map1 = channelMap(min(1, kChannels - 1));
 ChannelMap map2 = channelMap(min(2, kChannels - 1));
 ChannelMap map3 = channelMap(min(3, kChannels - 1));
 vec4 lowest = texelFetch(mapTexels, 1), highest = texelFetch(mapTexels, 2);
-uint jitterSeed = uint(layer.jitter.x) | uint(layer.jitter.y) << 16u;
-float share = kJitters ? shareOf(uvec2(gl_FragCoord.xy), jitterSeed) : 0.5;
 
 // What a ray has gathered.
 struct Gathered {
@@ -65,21 +61,30 @@ vec4 emissionOf(vec4 matter, vec3 normal, vec3 position, vec3 towardsEye) {
     return vec4((matter.rgb * light.x + light.y) * matter.a, matter.a);
 }
 
-// Written out: loops would soon meet the limit of llvmpipe.
-vec4 emissionAt(vec4 values, vec3 at, vec3 position, vec3 towardsEye) {
+// Matter of all channels at a place. Written out: loops would soon meet the limit of llvmpipe.
+struct Matters {
+    vec4 of0, of1, of2, of3;
+    float extinction;  // of all
+};
+
+Matters mattersOf(vec4 values) {
     bvec4 counts = counted(values);
-    vec4 matter0 = matterIn(map0, values.x, counts.x), matter1 = vec4(0.0), matter2 = vec4(0.0);
-    vec4 matter3 = vec4(0.0);
-    if (kChannels > 1) matter1 = matterIn(map1, values.y, counts.y);
-    if (kChannels > 2) matter2 = matterIn(map2, values.z, counts.z);
-    if (kChannels > 3) matter3 = matterIn(map3, values.w, counts.w);
+    Matters matters = Matters(matterIn(map0, values.x, counts.x), vec4(0.0), vec4(0.0), vec4(0.0), 0.0);
+    if (kChannels > 1) matters.of1 = matterIn(map1, values.y, counts.y);
+    if (kChannels > 2) matters.of2 = matterIn(map2, values.z, counts.z);
+    if (kChannels > 3) matters.of3 = matterIn(map3, values.w, counts.w);
+    matters.extinction = matters.of0.a + matters.of1.a + matters.of2.a + matters.of3.a;
+    return matters;
+}
+
+vec4 emissionAt(vec4 values, vec3 at, vec3 position, vec3 towardsEye) {
+    Matters matters = mattersOf(values);
     mat4x3 normals = mat4x3(0.0);
-    bool some = matter0.a + matter1.a + matter2.a + matter3.a > 0.0;
-    if (kShaded && some) normals = channelNormals(at);
-    vec4 sum = emissionOf(matter0, normals[0], position, towardsEye);
-    if (kChannels > 1) sum += emissionOf(matter1, normals[1], position, towardsEye);
-    if (kChannels > 2) sum += emissionOf(matter2, normals[2], position, towardsEye);
-    if (kChannels > 3) sum += emissionOf(matter3, normals[3], position, towardsEye);
+    if (kShaded) normals = channelNormals(at);
+    vec4 sum = emissionOf(matters.of0, normals[0], position, towardsEye);
+    if (kChannels > 1) sum += emissionOf(matters.of1, normals[1], position, towardsEye);
+    if (kChannels > 2) sum += emissionOf(matters.of2, normals[2], position, towardsEye);
+    if (kChannels > 3) sum += emissionOf(matters.of3, normals[3], position, towardsEye);
     return sum;
 }
 
@@ -100,8 +105,7 @@ float opacityOf(float depth) {
 }
 
 // Takes a sample for a step. True: nothing behind can show.
-bool takeSample(inout Gathered gathered, vec3 at, vec3 position, vec3 towardsEye, float dt) {
-    vec4 values = channelsAt(at);
+bool takeSample(inout Gathered gathered, vec4 values, vec3 at, vec3 position, vec3 towardsEye, float dt) {
     if (kExtremes) {
         vec4 none = vec4(kGathers == kMip ? -kNothing : kNothing);
         if (kInterval || kMissing) values = mix(none, values, counted(values));
@@ -135,35 +139,66 @@ bool allAddNothing(Gathered gathered, ChannelRanges ranges) {
     return nothing;
 }
 
+// Takes the steps from `i` to `beyond`, or until nothing behind can show. Under a light each ray first goes
+// on to its next sample with matter: see takeLitSteps() in volume/march_ray.glsl.
+bool takeSteps(inout Gathered gathered, Ray ray, March march, inout int i, int beyond) {
+    bool finished = false;
+    do {
+        float distance = 0.0;
+        vec4 values = vec4(0.0);
+        bool seen = true;
+        do {
+            distance = distanceOf(march, float(i) + share);
+            values = channelsAt(positionAt(march, distance));
+            if (kShaded) seen = mattersOf(values).extinction > 0.0;
+            i += seen ? 0 : 1;
+        } while (!seen && i < beyond);
+        if (seen) {
+            finished = takeSample(gathered, values, positionAt(march, distance),
+                                  ray.origin + distance * ray.direction, -ray.direction, march.dt);
+            ++i;
+        }
+    } while (i < beyond && !finished);
+    return finished;
+}
+
+// Where the steps end that are to be passed over, or taken, together with step `i`.
+int beyondAlike(Gathered gathered, March march, int i, int together, out bool shows) {
+    if (!kByDistance) {
+        float middle = distanceOf(march, float(i) + 0.5 * float(together));
+        shows = !allAddNothing(gathered, rangesAround(positionAt(march, middle)));
+        return i + together;
+    }
+    int empty = emptySteps(march, float(i) + share, true);
+    shows = empty == 0;
+    return i + (shows ? together : empty);
+}
+
 void main() {
     if (gl_HelperInvocation) return;
     Ray ray = rayThrough(gl_FragCoord.xy);
-    Window window = windowOf(ray, gl_FragCoord.xy);
-    vec3 origin = (layer.gridFromData * vec4(ray.origin, 1.0)).xyz;
-    vec3 direction = mat3(layer.gridFromData) * ray.direction;
-    vec2 span = boxSpan(origin, direction, vec3(0.0), layer.grid.xyz - 1.0);
-    float begin = max(span.x, window.begin), end = min(span.y, window.end);
-    bool met = begin <= end;
-    float count = met ? clamp(ceil((end - begin) / layer.grid.w), 1.0, float(kMaxRaySamples)) : 0.0;
-    float dt = met ? (end - begin) / count : 0.0;
-    int steps = int(count);
-    // As many steps are looked at together as ranges reach over; see volume/march_ray.glsl.
-    vec3 step = abs(direction) * dt;
-    float across = 2.0 * float(kRangeReach) / max(max(step.x, max(step.y, step.z)), 1.0e-30);
-    int together = int(clamp(across, 1.0, 4096.0));
-    bool skips = kSkipBricks && across >= 1.0;
+    March march;
+    meetsBox(ray, windowOf(ray, gl_FragCoord.xy), march);
     Gathered gathered = Gathered(vec3(0.0), 0.0, 0.0, vec4(kGathers == kMip ? -kNothing : kNothing));
-    bool finished = false;
-    int i = 0;
-    while (i < steps && !finished) {
-        int beyond = skips ? min(i + together, steps) : steps;
-        float middle = begin + (float(i) + 0.5 * float(together)) * dt;
-        if (skips && allAddNothing(gathered, rangesAround(origin + middle * direction))) i = beyond;
-        for (; i < beyond && !finished; ++i) {
-            float distance = begin + (float(i) + share) * dt;
-            finished = takeSample(gathered, origin + distance * direction,
-                                  ray.origin + distance * ray.direction, -ray.direction, dt);
-        }
+    // As many steps are looked at together as ranges reach over; longer ones reach farther.
+    int together = stepsTogether(march);
+    vec3 step = abs(march.direction) * march.dt;
+    bool skips = kByDistance || max(step.x, max(step.y, step.z)) <= 2.0 * float(kRangeReach);
+    bool finished = march.first >= march.steps;
+    int i = march.first;
+    if (!finished) {
+        do {
+            int beyond = march.steps;
+            bool shows = true;
+            if (kSkipBricks) {
+                do {
+                    beyond = min(skips ? beyondAlike(gathered, march, i, together, shows) : i + together,
+                                 march.steps);
+                    i = shows ? i : beyond;
+                } while (!shows && i < march.steps);
+            }
+            if (shows) finished = takeSteps(gathered, ray, march, i, beyond);
+        } while (i < march.steps && !finished);
     }
     colour = vec4(gathered.light, gathered.opacity);
     if (kGathers == kXray) colour = vec4(vec3(exp(-layer.gather.x * gathered.depth)), 1.0);

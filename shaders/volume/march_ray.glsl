@@ -1,6 +1,4 @@
-// Marches through a voxel volume: equal steps over the exact length of the ray in the box, so that
-// no step is partial and every ray's own length counts. Values sit on grid points; the box spans
-// from the first to the last.
+// Marches through a voxel volume, by the steps of volume/steps.glsl.
 //
 // A step's piece is constant, of the value in its middle; where kPieces it runs from the value at
 // its front end to that at its back (volume/pieces.glsl). Where kNarrows a piece that ends the ray is
@@ -9,39 +7,16 @@
 // these ends gives the hit. A field that crosses a level and comes back within one step is not seen to
 // do so. Where kAdaptive steps are no longer equal, where kByVoxels pieces are those of voxels.
 // kCoarseSteps: coarser voxels have longer steps.
-// Constants: kPieces, kNarrows, kAdaptive, kByVoxels, kCoarseSteps; kJitters: samples are not in the middle;
-// kForesees: the model sees some samples first; kByDistance: passes over what empty_space.glsl knows; kSkipBricks, kEarlyStop, kMaxRaySamples;
-// kInterval: only values in an interval count; kLit: levels are lit from the eye; kShaded: samples are by layer.light;
-// those of lib/window.glsl and volume/voxels.glsl.
+// Constants: kPieces, kNarrows, kAdaptive, kByVoxels, kCoarseSteps; kForesees: the model sees some samples
+// first; kSkipBricks, kEarlyStop; kInterval: only values in an interval count; kLit: levels are lit from the
+// eye; kShaded: samples are by layer.light; those of volume/steps.glsl and volume/voxels.glsl.
 // Uses: classify through the model; segment through the model.
-#include "lib/box.glsl"
-#include "lib/jitter.glsl"
 #include "lib/light.glsl"
-#include "lib/window.glsl"
+#include "volume/steps.glsl"
 #include "volume/voxels.glsl"
 
 const int kHalvings = 8;
 const float kForeseen = 16.0;  // Grid intervals between samples that are looked at first.
-
-// A ray in grid coordinates and its steps.
-struct March {
-    vec3 origin;
-    vec3 direction;  // grid units per world unit
-    float begin;     // world units from the ray's origin
-    float extent;    // world units in the box
-    float dt;        // world units a step
-    int first;       // steps before it and from `steps` on are known to show nothing
-    int steps;
-    vec3 perGrid;    // world units that each axis takes for a grid interval; below 0: backwards
-};
-
-float distanceOf(March march, float steps) {
-    return march.begin + steps * march.dt;
-}
-
-vec3 positionAt(March march, float distance) {
-    return march.origin + distance * march.direction;
-}
 
 // The value after so many steps.
 float valueAfter(March march, float steps) {
@@ -51,10 +26,6 @@ float valueAfter(March march, float steps) {
 Segment sampledPiece(float front, float back, float extent, float distance) {
     return Segment(front, back, front, back, extent, distance);
 }
-
-// Where the samples of a ray are in their steps.
-uint jitterSeed = uint(layer.jitter.x) | uint(layer.jitter.y) << 16u;
-float share = kJitters ? shareOf(uvec2(gl_FragCoord.xy), jitterSeed) : 0.5;
 
 // Where step `i` belongs: its front end or its sample.
 float placeOf(int i) {
@@ -69,7 +40,6 @@ int stepsAsOne(March march, int i, int beyond) {
 }
 
 #include "volume/ranges.glsl"
-#include "volume/empty_space.glsl"
 
 bool skipsRange(RayState state, vec2 range) {
     if (kInterval) range = vec2(max(range.x, layer.gather.z), min(range.y, layer.gather.w));
@@ -88,6 +58,29 @@ float litValueAt(Ray ray, March march, float at, out vec2 light) {
 
 #include "volume/pieces.glsl"
 
+Segment lastPiece = Segment(0.0, 0.0, 0.0, 0.0, 0.0, 0.0);  // that a ray took; where kNarrows
+
+// Cuts a piece with one end where there is no value to the cell of its other end, all of which has values:
+// a level may be crossed between a gap and the step beside it. False: nothing of it has values that vary.
+bool cutToCell(inout Segment piece, March march) {
+    bool noFront = lacksValue(piece.front), noBack = lacksValue(piece.back);
+    if (noFront == noBack) return !noFront;
+    if (kSampling == kNearest) return false;
+    vec3 at = positionAt(march, piece.distance + (noFront ? piece.extent : 0.0));
+    vec3 towards = noFront ? -march.direction : march.direction;
+    vec3 wall = floor(at) + mix(vec3(0.0), vec3(1.0), greaterThan(towards, vec3(0.0)));
+    vec3 way = abs((wall - at) * march.perGrid);
+    // Short of the wall by less than what hits are off by: on it rounding would choose the cell.
+    float extent = min(0.999 * min(way.x, min(way.y, way.z)), piece.extent);
+    float place = piece.distance + (noFront ? piece.extent - extent : extent);
+    float value = valueAt(positionAt(march, place));
+    if (noFront) piece.distance = place;
+    if (noFront) piece.front = value;
+    if (noBack) piece.back = value;
+    piece.extent = extent;
+    return !lacksValue(value);
+}
+
 // Takes `count` steps from `i` on as one; `value` is that of the step before, then that of this one.
 // True: nothing behind can show.
 bool takeStep(inout RayState state, inout float value, Ray ray, March march, int i, int count) {
@@ -99,20 +92,22 @@ bool takeStep(inout RayState state, inout float value, Ray ray, March march, int
         return takePiece(state, sampledPiece(front, value, extent, distanceOf(march, float(i))));
     }
     if (kInterval && (value < layer.gather.z || value > layer.gather.w)) return false;
-    if (lacksValue(value)) return false;
-    if (kPieces && lacksValue(front)) {
-        enterData(state, sampledPiece(value, value, 0.0, at));
-        return false;
-    }
+    if (!kPieces && lacksValue(value)) return false;
     Segment piece = sampledPiece(kPieces ? front : value, value, extent, distanceOf(march, float(i)));
+    if (kNarrows && kMissing) {
+        bool there = cutToCell(piece, march);
+        if (!there) piece.front = value;
+        if (lacksValue(front) && !lacksValue(value)) enterData(state, piece);
+        if (!there) return false;
+    }
+    lastPiece = piece;
     return stepRay(state, piece) && kEarlyStop;
 }
 
-// Narrows step `i`, which ended the ray; its back value is `back`.
-void narrow(inout RayState state, March march, int i, float back) {
-    float distance = distanceOf(march, float(i));
-    float front = valueAfter(march, float(i));
-    float extent = march.dt;
+// Narrows the piece that ended the ray.
+void narrow(inout RayState state, March march) {
+    float distance = lastPiece.distance, extent = lastPiece.extent;
+    float front = lastPiece.front, back = lastPiece.back;
     for (int halving = 0; halving < kHalvings; ++halving) {
         float middle = valueAt(positionAt(march, distance + 0.5 * extent));
         if (lacksValue(middle)) break;
@@ -129,8 +124,42 @@ void narrow(inout RayState state, March march, int i, float back) {
     stepRay(state, last);
 }
 
+// Whether a sample is there, in the interval, and has matter.
+bool isSeen(float value) {
+    bool counts = !kInterval || (value >= layer.gather.z && value <= layer.gather.w);
+    return counts && !lacksValue(value) && matterAt(value, value).a > 0.0;
+}
+
+// Under a light, of a map that is transparent in parts: takes the steps from `i` to `beyond`. Slopes are
+// dear, and llvmpipe finds them for all rays that run side by side if it does for one: each of these first
+// goes on to its next sample that is seen.
+bool takeLitSteps(inout RayState state, Ray ray, March march, inout int i, int beyond) {
+    bool finished = false;
+    do {
+        int count = 1;
+        float at = 0.0, value = 0.0;
+        bool seen = false;
+        do {
+            count = stepsAsOne(march, i, beyond);
+            at = distanceOf(march, float(i) + float(count) * share);
+            value = valueAt(positionAt(march, at));
+            seen = isSeen(value);
+            i += seen ? 0 : count;
+        } while (!seen && i < beyond);
+        if (seen) {
+            vec3 normal = normalAt(positionAt(march, at));
+            pieceLight = lightOn(normal, ray.origin + at * ray.direction, -ray.direction);
+            Segment piece = sampledPiece(value, value, float(count) * march.dt, distanceOf(march, float(i)));
+            finished = stepRay(state, piece) && kEarlyStop;
+            i += count;
+        }
+    } while (i < beyond && !finished);
+    return finished;
+}
+
 // Takes the steps from `i` to `beyond` or so, or until nothing behind can show. At least one is left.
 bool takeSteps(inout RayState state, inout float value, Ray ray, March march, inout int i, int beyond) {
+    if (kShaded && kSkipBricks && !kPieces) return takeLitSteps(state, ray, march, i, beyond);
     bool finished = false;
     // Several a round where that is right: it saves most of what a round costs, and while one waits for
     // memory others are looked up.
@@ -161,13 +190,6 @@ bool takeSteps(inout RayState state, inout float value, Ray ray, March march, in
 #include "volume/march_adaptive.glsl"
 #include "volume/march_voxels.glsl"
 
-// Steps that are looked at together: no more than lie within kRangeReach of their middle, and at
-// least one. Equal for all steps of a ray and nearly so for all rays, so that they stay side by side.
-int stepsTogether(March march) {
-    vec3 step = abs(march.direction) * march.dt;
-    return int(clamp(2.0 * float(kRangeReach) / max(step.x, max(step.y, step.z)), 1.0, 4096.0));
-}
-
 // The range of all values on steps [first, first + count].
 vec2 rangeOfSteps(March march, int first, int count) {
     return rangeAround(positionAt(march, distanceOf(march, float(first) + 0.5 * float(count))));
@@ -191,13 +213,10 @@ int beyondAlike(RayState state, March march, int i, int together, bool skips, ou
         shows = !skips || !skipsRange(state, rangeOfSteps(march, i, together));
         return i + together;
     }
-    vec3 at = positionAt(march, distanceOf(march, placeOf(i)));
-    // What ends on a wall, up to rounding, is looked at again. A sample needs its place alone, a piece
-    // all of its step.
-    float steps = emptyFrom(at, march.perGrid, shows) / march.dt - 1.0e-3;
-    int whole = int(max(steps, 0.0)) + (kPieces ? 0 : 1);
-    shows = shows || whole == 0;
-    return i + (shows ? together : whole);
+    // A sample needs its place alone, a piece all of its step.
+    int empty = emptySteps(march, placeOf(i), !kPieces);
+    shows = empty == 0;
+    return i + (shows ? together : empty);
 }
 
 // The loops test at their ends: llvmpipe runs what lies behind a test once more for no lane at all.
@@ -240,39 +259,16 @@ RayState marched(Ray ray, March march) {
         if (shows) finished = takeSteps(state, value, ray, march, i, beyond);
         entered = entered || !lacksValue(value);
     } while (i < march.steps && !finished);
-    if (kNarrows && finished) narrow(state, march, i - 1, value);
+    if (kNarrows && finished) narrow(state, march);
     return state;
-}
-
-// Leaves out the steps before and behind all blocks that show.
-void cutToShown(inout March march) {
-    vec2 span = boxSpan(march.origin, march.direction, shownCorner(0), shownCorner(3));
-    vec2 steps = (span - march.begin) / march.dt;
-    // One more at both ends, for rounding; spans may be empty, or end far away.
-    march.first = int(clamp(floor(steps.x) - 1.0, 0.0, float(march.steps)));
-    march.steps = int(clamp(ceil(steps.y) + 1.0, 0.0, float(march.steps)));
-    if (!(span.x <= span.y)) march.first = march.steps;
 }
 
 // What the ray of a pixel gathers, and how far away it was ended by something opaque.
 vec4 castRay(vec2 pixel, out float distance) {
     Ray ray = rayThrough(pixel);
-    Window window = windowOf(ray, pixel);
     March march;
-    march.origin = (layer.gridFromData * vec4(ray.origin, 1.0)).xyz;
-    march.direction = mat3(layer.gridFromData) * ray.direction;
-    vec2 span = boxSpan(march.origin, march.direction, vec3(0.0), layer.grid.xyz - 1.0);
-    march.begin = max(span.x, window.begin);
-    float end = min(span.y, window.end);
     distance = kNoHit;
-    if (!(march.begin <= end)) return endRay(beginRay(ray), 1.0);
-    float steps = clamp(ceil((end - march.begin) / layer.grid.w), 1.0, float(kMaxRaySamples));
-    march.steps = int(steps);
-    march.extent = end - march.begin;
-    march.dt = march.extent / steps;
-    march.first = 0;
-    march.perGrid = 1.0 / mix(march.direction, vec3(1.0e-30), equal(march.direction, vec3(0.0)));
-    if (kByDistance) cutToShown(march);
+    if (!meetsBox(ray, windowOf(ray, pixel), march)) return endRay(beginRay(ray), 1.0);
     RayState state = marched(ray, march);
     distance = hitDistance(state);
     float facing = 1.0;

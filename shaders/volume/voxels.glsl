@@ -80,6 +80,8 @@ float voxel(ivec3 point) {
 // `at` is in the box, up to rounding: what lies a hair outside is extrapolated by as much.
 float trilinear(vec3 at) {
     ivec3 low = ivec3(at);
+    // What is missing is so for all of a cell: a place on a face of the box is in the cell behind it.
+    if (kMissing) low = min(low, max(lastPoint() - 1, ivec3(0)));
     vec3 t = at - vec3(low);
     vec4 plane = mix(face(low), face(ivec3(low.xy, low.z + 1)), t.z);
     vec2 line = mix(plane.xy, plane.zw, t.y);

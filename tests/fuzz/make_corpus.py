@@ -85,6 +85,7 @@ def binary():
     page = struct.pack("<H", 1) + struct.pack("<HHII", 256, 4, 1, 2)
     keep("tiff", "two_pages", b"II*\0" + struct.pack("<I", 8) + page + struct.pack("<I", 26) + page +
          struct.pack("<I", 0))
+    keep("tiff", "circle", b"II*\0" + struct.pack("<I", 8) + page + struct.pack("<I", 8))
     big = struct.pack(">Q", 1) + struct.pack(">HHQQ", 256, 4, 1, 2)
     keep("tiff", "big", b"MM\0+" + struct.pack(">HHQ", 8, 0, 16) + big + struct.pack(">Q", 0))
     keep("packed", "zeros", b"\0" * 256)

@@ -12,6 +12,8 @@ using namespace volcast;
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const base::FileDescriptor file{::memfd_create("tiff", MFD_CLOEXEC)};
     if (::write(file.get(), data, size) != static_cast<ssize_t>(size)) return 0;
-    (void)data::load::tiffPages("/proc/self/fd/" + std::to_string(file.get()));
+    constexpr int kMost = 1000;
+    const auto pages = data::load::tiffPages("/proc/self/fd/" + std::to_string(file.get()), kMost);
+    fuzz::require(!pages || (*pages >= 0 && *pages <= kMost));
     return 0;
 }

@@ -76,9 +76,9 @@ public:
         return sum;
     }
 
-    /// The direction in which the field rises most, of length 1 in the world, or 0: by differences
-    /// over a grid interval to each side within the box.
-    [[nodiscard]] glm::dvec3 normalAt(const glm::dvec3& world) const {
+    /// How fast the field rises, a world unit: by differences over a grid interval to each side
+    /// within the box.
+    [[nodiscard]] glm::dvec3 slopeAt(const glm::dvec3& world) const {
         glm::dvec3 slope{0.0};
         for (int axis = 0; axis < 3; ++axis) {
             const glm::dvec3 way = volume_.direction[axis] * volume_.spacing[axis];
@@ -89,8 +89,27 @@ public:
             slope += rise / std::max(back + ahead, 0.5) / volume_.spacing[axis] *
                      volume_.direction[axis];
         }
+        return slope;
+    }
+
+    /// The direction in which it rises most, of length 1, or 0.
+    [[nodiscard]] glm::dvec3 normalAt(const glm::dvec3& world) const {
+        const glm::dvec3 slope = slopeAt(world);
         const double size = glm::length(slope);
         return size > 0.0 ? slope / size : glm::dvec3{0.0};
+    }
+
+    /// The least and the largest value within `off` grid units of a place, along each axis, as far
+    /// as its corners tell.
+    [[nodiscard]] glm::dvec2 valuesNear(const glm::dvec3& world, double off) const {
+        glm::dvec2 found{1e300, -1e300};
+        for (int corner = 0; corner < 8; ++corner) {
+            const glm::dvec3 way{(corner & 1) != 0 ? off : -off, (corner & 2) != 0 ? off : -off,
+                                 (corner & 4) != 0 ? off : -off};
+            const double value = valueAt(world + volume_.direction * (volume_.spacing * way));
+            found = {std::min(found.x, value), std::max(found.y, value)};
+        }
+        return found;
     }
 
     /// What `light` makes of the colour of matter at a place, seen along `direction`.

@@ -23,11 +23,14 @@ import {
   type SharedState,
   type ShareLink,
 } from "./state/app_state";
+import { needsComparison } from "./state/difference";
 import type { ViewDocument } from "./state/document";
 import { followCamera, followScene, joinScene } from "./state/follow";
+import { atRest, followThumbnails, ThumbnailKeeper, thumbnailSize } from "./state/model_thumbnails";
 import { whyNotSteering } from "./state/people";
 import { codeToDescribe } from "./state/shader_actions";
 import { followShownOrbit } from "./state/shown_orbit";
+import { followTime } from "./state/time_steps";
 import type { ViewPort } from "./ui/port";
 import { withOtherProjection } from "./view/camera";
 import { controlCamera } from "./view/camera_control";
@@ -102,16 +105,19 @@ export function openPane(page: PanePort, beginning: PaneBeginning): Pane {
       frame: (frame, receivedAt) => pictures.show(frame, receivedAt),
       restarted: () => pictures.restart(),
       opened(scene) {
+        thumbnails.lost();
         adopt(() => adoptScene(state, scene));
         shownOrbit.opened();
         page.opened();
         if (state.orbit.value !== state.home.value) conversation.mark("camera");
       },
       joined(scene) {
+        thumbnails.lost();
         adopt(() => joinScene(state, scene));
         shownOrbit.opened();
       },
       restored(document) {
+        thumbnails.lost();
         adopt(() => restoreDocument(state, document));
         shownOrbit.opened();
       },
@@ -122,6 +128,9 @@ export function openPane(page: PanePort, beginning: PaneBeginning): Pane {
       moved(camera) {
         adopt(() => followCamera(state, camera));
         page.moved();
+      },
+      thumbnail(answer) {
+        if (thumbnails.answered(answer) && atRest(state)) thumbnails.advance();
       },
       current: () => currentDocument(state),
     },
@@ -245,6 +254,20 @@ export function openPane(page: PanePort, beginning: PaneBeginning): Pane {
   );
 
   const { people, questions } = conversation;
+  const thumbnails = new ThumbnailKeeper(state, (request, scene) => {
+    const { width, height } = thumbnailSize(devicePixelRatio);
+    return questions.drawThumbnail(request, scene, width, height);
+  });
+  ends.push(
+    followThumbnails(state, thumbnails),
+    followTime(state, {
+      now: () => performance.now(),
+      after: (ms, run) => void setTimeout(run, ms),
+    }),
+    effect(() => {
+      if (needsComparison(state)) untracked(() => questions.compare());
+    }),
+  );
   const step = (isRedo: boolean): void => {
     const why = whyNotSteering(state);
     if (why) notify(state, "info", why);
@@ -267,8 +290,13 @@ export function openPane(page: PanePort, beginning: PaneBeginning): Pane {
     },
     resetCamera: () => resetCamera(state),
     explain: () => questions.explain(),
-    measureAccuracy: () => questions.measureAccuracy(),
+    measure: (aim) => questions.measure(aim),
     stopMeasuring: () => questions.stopMeasuring(),
+    compare(on) {
+      if (!on) questions.stopComparing();
+      state.comparing.value = on;
+      if (!on) state.difference.value = undefined;
+    },
     undo: () => step(false),
     redo: () => step(true),
     takeControl: () => people.takeControl(),

@@ -98,7 +98,7 @@ Result<void> appendFile(const std::string& path, std::uint64_t maxBytes, ImagePa
         ++stack.volume.size.z;
     }
     if (formatOf(path)->name != "TIFF") return {};
-    const auto pages = tiffPages(path);
+    const auto pages = tiffPages(path, kMaxVolumeSide);
     return pages ? Result<void>{} : pages.error();
 }
 

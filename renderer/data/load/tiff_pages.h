@@ -10,7 +10,8 @@ namespace volcast::data::load {
 ///
 /// libtiff, and so OpenImageIO, takes a chain that is broken (in a file that was cut off) for one
 /// that ends. Source: TIFF 6.0, section 2, and the BigTIFF design.
-/// Errors: kInvalidArgument naming path and page, kIo.
-Result<int> tiffPages(const std::string& path);
+/// Errors: kInvalidArgument naming path and page; kLimitExceeded for more than `mostPages`, which
+/// directories that lead back to one before always are; kIo.
+Result<int> tiffPages(const std::string& path, int mostPages);
 
 }  // namespace volcast::data::load

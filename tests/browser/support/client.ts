@@ -135,7 +135,7 @@ export class Client {
   async #coverPicture(visibility: "hidden" | ""): Promise<void> {
     await this.page.evaluate((value) => {
       for (const part of document.querySelectorAll<HTMLElement>(
-        ".tools, .readout, .picked, .notices, .overlay, .hud, .pane-head, .pane-frame, .panes-link",
+        ".tools, .readout, .picked, .notices, .overlay, .hud, .difference, .pane-head, .pane-frame, .panes-link",
       )) {
         part.style.visibility = value;
       }

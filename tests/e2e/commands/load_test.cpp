@@ -67,6 +67,60 @@ TEST(Load, EachKindOfClientReportsWhatItSaw) {
     EXPECT_GE(number(server, "processes"), 2);
 }
 
+// A client that idles in a view of its own never sees an input, so ages show that views are shared.
+TEST(Load, SixClientsShareTwoViewsThatMove) {
+    const Outcome ran = runVolcast(small({"--clients", "idle=3,orbit=2,slow", "--views", "2",
+                                          "--json", "--rate", "10", "--max-errors", "0"}));
+    ASSERT_EQ(ran.exitCode, 0) << ran.err;
+    const json::object report = parsed(ran);
+    EXPECT_EQ(number(report, "views"), 2);
+    const json::object& kinds = report.at("kinds").as_object();
+    ASSERT_EQ(kinds.size(), 3U) << ran.out;
+    const json::value& steering = kinds.at("orbit");
+    EXPECT_EQ(number(steering, "clients"), 2);
+    EXPECT_GT(number(steering, "inputs"), 0);
+    for (const auto& [kind, clients] :
+         {std::pair{"idle, watching", 3}, std::pair{"slow, watching", 1}}) {
+        const json::value& seen = kinds.at(kind);
+        EXPECT_EQ(number(seen, "clients"), clients) << kind;
+        EXPECT_EQ(number(seen, "connects"), clients) << kind;
+        EXPECT_EQ(number(seen, "inputs"), 0) << kind;
+        EXPECT_GT(number(seen, "frames_per_s_slowest"), 0) << kind;
+        EXPECT_GT(number(seen.at("age_ms"), "count"), 0) << kind;
+        EXPECT_EQ(number(seen.at("input_to_frame_ms"), "count"), 0) << kind;
+        EXPECT_EQ(number(seen.at("first_frame_ms"), "count"), clients) << kind;
+    }
+    const json::value& moving = report.at("views_that_move");
+    EXPECT_EQ(number(moving, "count"), 2);
+    EXPECT_GT(number(moving, "fairness"), 0);
+    EXPECT_LE(number(moving, "fairness"), 1);
+    for (const char* when : {"start", "end"}) {
+        const json::value& use = report.at("server").at(when);
+        EXPECT_GT(number(use, "resident_bytes"), 1e6) << when;
+        EXPECT_GT(number(use, "threads_with_workers"), number(use, "threads")) << when;
+        EXPECT_GT(number(use, "descriptors"), 6) << when;
+    }
+}
+
+// Who watches comes back to the view that is there; who steered opens another.
+TEST(Load, WatchersThatComeAndGoFindTheirView) {
+    const Outcome ran = runVolcast(small({"--clients", "orbit,join=2", "--views", "1", "--json",
+                                          "--rate", "10", "--max-errors", "0"}));
+    ASSERT_EQ(ran.exitCode, 0) << ran.err;
+    const json::object report = parsed(ran);
+    EXPECT_GT(number(report.at("kinds").at("join, watching"), "connects"), 2);
+}
+
+TEST(Load, AcksMayBeHeldBackOrGivenForNothing) {
+    for (const char* acks : {"full", "one", "none"}) {
+        const Outcome ran = runVolcast(
+            small({"--acks", acks, "--clients", "shaped", "--json", "--max-errors", "0"}));
+        ASSERT_EQ(ran.exitCode, 0) << acks << ran.err;
+        const json::object report = parsed(ran);
+        EXPECT_GT(number(report.at("kinds").at("shaped").at("age_ms"), "count"), 0) << acks;
+    }
+}
+
 TEST(Load, TheTableHasARowForEachKind) {
     const Outcome ran = runVolcast(small({"--clients", "orbit=2,idle"}));
     ASSERT_EQ(ran.exitCode, 0) << ran.err;
@@ -77,12 +131,18 @@ TEST(Load, TheTableHasARowForEachKind) {
 }
 
 TEST(Load, AThresholdThatIsNotKeptIsNamedAndExitsWithOne) {
-    const Outcome ran = runVolcast(small({"--max-p99-ms", "0.001", "--min-fps", "100000",
-                                          "--max-server-mb", "1", "--max-p50-ms", "1000000"}));
+    const Outcome ran =
+        runVolcast(small({"--max-p99-ms", "0.001", "--min-fps", "100000", "--max-server-mb", "1",
+                          "--max-p50-ms", "1000000", "--max-age-ms", "0.001", "--min-fairness",
+                          "1.1", "--max-server-cores", "0", "--max-growth-mb", "10000"}));
     EXPECT_EQ(ran.exitCode, 1);
     EXPECT_THAT(ran.err, HasSubstr("not kept: input to frame p99 ms"));
     EXPECT_THAT(ran.err, HasSubstr("not kept: frames/s of the slowest client"));
     EXPECT_THAT(ran.err, HasSubstr("not kept: server MB"));
+    EXPECT_THAT(ran.err, HasSubstr("not kept: frame age max ms"));
+    EXPECT_THAT(ran.err, HasSubstr("not kept: fairness of views"));
+    EXPECT_THAT(ran.err, HasSubstr("not kept: server cores"));
+    EXPECT_THAT(ran.err, testing::Not(HasSubstr("growth")));
     EXPECT_THAT(ran.err, testing::Not(HasSubstr("p50")));
 }
 
@@ -121,6 +181,9 @@ TEST(Load, WrongOptionsAreNamed) {
         {{"load", "--rate", "nan"}, "nan"},
         {{"load", "--duration", "0"}, "--duration"},
         {{"load", "--min-fps", "-1"}, "--min-fps"},
+        {{"load", "--acks", "some"}, "some"},
+        {{"load", "--quality", "101"}, "--quality"},
+        {{"load", "ws://127.0.0.1:1", "--max-growth-mb", "1"}, "--max-growth-"},
         {{"load", "ftp://127.0.0.1"}, "ftp://127.0.0.1"},
         {{"load", "ws://127.0.0.1:99999"}, "99999"},
         {{"load", "ws://:80"}, "host"},

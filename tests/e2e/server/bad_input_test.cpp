@@ -85,6 +85,15 @@ TEST_F(BadInput, EachWrongMessageIsRefusedWithItsFieldAndTheViewGoesOn) {
          v1::ERROR_CODE_NOT_PERMITTED, "link"},
         {R"({"openView":{"view":2,"link":"x","dataset":"y","viewport":{"width":9,"height":9}}})",
          v1::ERROR_CODE_INVALID_ARGUMENT, "dataset"},
+        {R"({"measureDifference":{"view":99}})", v1::ERROR_CODE_NOT_FOUND, "view"},
+        {R"({"measureDifference":{"view":1,"maxMs":-1}})", v1::ERROR_CODE_MALFORMED_MESSAGE, ""},
+        {R"({"drawThumbnail":{"view":99}})", v1::ERROR_CODE_NOT_FOUND, "view"},
+        {R"({"drawThumbnail":{"view":1,"width":96}})", v1::ERROR_CODE_INVALID_ARGUMENT,
+         "draw_thumbnail.height"},
+        {R"({"drawThumbnail":{"view":1,"width":257,"height":72}})", v1::ERROR_CODE_LIMIT_EXCEEDED,
+         "draw_thumbnail.width"},
+        {R"({"drawThumbnail":{"view":1,"width":96,"height":72}})", v1::ERROR_CODE_INVALID_ARGUMENT,
+         "draw_thumbnail.scene"},
     };
     for (const Refused& row : rows) {
         const v1::Error error = errorTo(row.json);

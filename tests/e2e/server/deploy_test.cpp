@@ -1,10 +1,10 @@
 // What deploy/ ships, as far as it can be looked at without root.
-#include <array>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 
 #include <gmock/gmock.h>
+
+#include "tests/e2e/server/shell.h"
 
 namespace volcast::test {
 namespace {
@@ -13,17 +13,6 @@ using testing::HasSubstr;
 using testing::Not;
 
 constexpr const char* kUnit = VOLCAST_SOURCE_DIR "/deploy/systemd/volcast.service";
-
-/// stdout and stderr of a command, and its status.
-std::pair<std::string, int> outputOf(const std::string& command) {
-    FILE* pipe = ::popen((command + " 2>&1").c_str(), "r");
-    std::string text;
-    std::array<char, 4096> buffer{};
-    while (std::fgets(buffer.data(), static_cast<int>(buffer.size()), pipe) != nullptr) {
-        text += buffer.data();
-    }
-    return {text, ::pclose(pipe)};
-}
 
 // The score is systemd's own: 0 exposes nothing, 10 everything; what it calls OK ends at 5.
 TEST(SystemdUnit, IsHardenedAsSystemdCounts) {

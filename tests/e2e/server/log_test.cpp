@@ -1,12 +1,13 @@
 // The log: one line an event, with the numbers of whom it concerns.
 #include <csignal>
+#include <map>
 #include <regex>
 #include <set>
 #include <sstream>
 
 #include <gmock/gmock.h>
 
-#include "tests/e2e/server/test_client.h"
+#include "tests/e2e/server/fault_stage.h"
 
 namespace volcast::test {
 namespace {
@@ -48,6 +49,45 @@ TEST(Log, LinesAboutAClientNameItAndThoseAboutAViewBoth) {
         }
     }
     EXPECT_EQ(seen, ofClients) << ended->err;
+}
+
+/// The value of `key` in a line; empty where it has none.
+std::string valueOf(const std::string& line, const std::string& key) {
+    std::smatch found;
+    const std::regex pattern{" " + key + R"(=("[^"]*"|\S+))"};
+    return std::regex_search(line, found, pattern) ? found[1].str() : "";
+}
+
+TEST(Log, LinesOfWorkersAreEventsTooAndNameTheViewThatWasDrawn) {
+    ServerProcess server{{"--allow-faults"}};
+    ASSERT_TRUE(server.ready()) << server.log();
+    {
+        const Looker looker{server.port(), TestClient::Form::kBinary, "demo:mesh"};
+        ASSERT_TRUE(looker.before.has_value()) << server.log();
+        inject(*looker.client, "gpu-reset");
+        looker.client->look(1, 3, 1.1);
+        ASSERT_TRUE(looker.client->waitForFrame(1, 3).has_value()) << server.log();
+    }
+    server.signal(SIGTERM);
+    const auto ended = server.wait();
+    ASSERT_TRUE(ended.has_value());
+    std::map<std::string, std::string> last;  // By event.
+    std::istringstream lines{ended->err};
+    const std::regex stamped{R"(^\d{4}-\d\d-\d\dT.*)"},
+        wellFormed{R"(^\S+ [a-z]+ event=[a-z_]+( [a-z_0-9]+=("[^"]*"|[^ "]+))*$)"};
+    for (std::string line; std::getline(lines, line);) {
+        if (!std::regex_match(line, stamped)) continue;  // A library's own words.
+        EXPECT_TRUE(std::regex_match(line, wellFormed)) << line;
+        last[valueOf(line, "event")] = line;
+    }
+    const std::string view = valueOf(last["view_opened"], "view");
+    EXPECT_NE(view, "");
+    EXPECT_EQ(valueOf(last["worker_lost"], "view"), view) << ended->err;
+    EXPECT_EQ(valueOf(last["worker_lost"], "role"), "drawing");
+    EXPECT_NE(valueOf(last["worker_ready"], "worker"), "");
+    // Both by the worker itself.
+    EXPECT_EQ(valueOf(last["fault_armed"], "worker"), valueOf(last["worker_lost"], "worker"));
+    EXPECT_EQ(valueOf(last["device_lost"], "worker"), valueOf(last["worker_lost"], "worker"));
 }
 
 }  // namespace

@@ -1,10 +1,11 @@
 // /metrics as a scraper reads it.
+#include <csignal>
 #include <map>
 #include <sstream>
 
 #include <gmock/gmock.h>
 
-#include "tests/e2e/server/test_client.h"
+#include "tests/e2e/server/fault_stage.h"
 
 namespace volcast::test {
 namespace {
@@ -64,12 +65,46 @@ TEST(Metrics, CountWhatAClientDid) {
         EXPECT_EQ(now.at(R"(volcast_errors_total{code="ERROR_CODE_INVALID_ARGUMENT"})"), 1);
         EXPECT_EQ(now.at(R"(volcast_imports_total{result="good"})"), 1);
         EXPECT_EQ(now.at(R"(volcast_queue_depth{queue="import"})"), 0);
+        EXPECT_EQ(now.at(R"(volcast_queue_depth{queue="render"})"), 0);
         EXPECT_GT(now.at("volcast_received_bytes_total"), 0);
         EXPECT_GT(now.at("volcast_sent_bytes_total"), static_cast<double>(exact->payload.size()));
         EXPECT_EQ(now.at("volcast_worker_losses_total"), 0);
     }
     EXPECT_TRUE(eventually([&] { return scrape(server.port()).at("volcast_connections") == 0; }));
     EXPECT_EQ(scrape(server.port()).at("volcast_views"), 1) << "who was in it may come back";
+}
+
+TEST(Metrics, ViewsThatNobodyComesBackToEndByThemselves) {
+    const ServerProcess server{{"--keep-views-s", "1"}};
+    ASSERT_TRUE(server.ready()) << server.log();
+    {
+        TestClient client{server.port()};
+        ASSERT_TRUE(client.ok());
+        client.openView(1, "demo:volume");
+        ASSERT_TRUE(client.waitForFrame(1, 1).has_value());
+        EXPECT_NE(client.share(1, v1::ROLE_WATCH), "");
+        EXPECT_EQ(scrape(server.port()).at("volcast_views"), 1);
+    }
+    EXPECT_TRUE(eventually([&] { return scrape(server.port()).at("volcast_views") == 0; }));
+}
+
+// A worker that hangs in one view's picture lets the others wait for their turn.
+TEST(Metrics, ViewsThatWaitForAWorkerAreCounted) {
+    const ServerProcess server{{"--allow-faults", "--frame-deadline-ms", "60000"}};
+    ASSERT_TRUE(server.ready()) << server.log();
+    TestClient client{server.port()};
+    ASSERT_TRUE(client.ok());
+    for (const std::uint32_t view : {1U, 2U, 3U}) {
+        client.openView(view, "demo:volume");
+        ASSERT_TRUE(client.waitForLossless(view, 1).has_value());
+    }
+    inject(client, "hang-in-draw");
+    for (const std::uint32_t view : {1U, 2U, 3U}) client.look(view, 2, 1.0);
+    const auto waiting = [&] {
+        return scrape(server.port()).at(R"(volcast_queue_depth{queue="render"})");
+    };
+    EXPECT_TRUE(eventually([&] { return waiting() == 2; })) << waiting();
+    server.signal(SIGKILL);
 }
 
 TEST(Metrics, LabelsAreBoundedWhateverClientsSend) {

@@ -48,6 +48,7 @@ TEST(State, ViewsOfAKilledServerComeBackWithLinksAndTokens) {
     ASSERT_TRUE(opened.has_value()) << server.log();
     EXPECT_EQ(opened->id(), id);
     EXPECT_EQ(opened->input_seq(), 7U);
+    EXPECT_TRUE(opened->can_undo());
     const auto after = back.waitForLossless(2, 7);
     ASSERT_TRUE(after.has_value()) << server.log();
     EXPECT_EQ(after->payload, before);

@@ -1,36 +1,15 @@
 // HTTPS and wss with a certificate that the test makes; clients are OpenSSL's own and ours.
-#include <array>
-#include <cstdio>
-
 #include <boost/json.hpp>
 #include <gmock/gmock.h>
 
 #include "tests/e2e/server/raw_socket.h"
 #include "tests/e2e/server/shared_server.h"
+#include "tests/e2e/server/shell.h"
 
 namespace volcast::test {
 namespace {
 
 using testing::HasSubstr;
-
-std::pair<std::string, int> outputOf(const std::string& command) {
-    FILE* pipe = ::popen((command + " 2>&1").c_str(), "r");
-    std::string text;
-    std::array<char, 4096> buffer{};
-    while (std::fgets(buffer.data(), static_cast<int>(buffer.size()), pipe) != nullptr) {
-        text += buffer.data();
-    }
-    return {text, ::pclose(pipe)};
-}
-
-/// cert.pem and key.pem for 127.0.0.1, signed by themselves.
-void makeCertificate(const std::filesystem::path& folder) {
-    const auto [text, status] = outputOf(
-        "openssl req -x509 -newkey ec -pkeyopt ec_paramgen_curve:prime256v1 -nodes -days 1 "
-        "-subj /CN=127.0.0.1 -addext subjectAltName=IP:127.0.0.1 -keyout " +
-        (folder / "key.pem").string() + " -out " + (folder / "cert.pem").string());
-    ASSERT_EQ(status, 0) << text;
-}
 
 class Tls : public testing::Test {
 protected:

@@ -1,4 +1,5 @@
 // Measurements at once and in parts, and what they keep.
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -84,6 +85,42 @@ TEST_F(MeterTest, ADatasetMayGoWhileTheReferenceIsAsked) {
     const auto gone = inParts(job_);
     ASSERT_FALSE(gone.has_value());
     EXPECT_EQ(gone.error().code, ErrorCode::kNotFound);
+}
+
+TEST_F(MeterTest, APictureOnRefiningGridsComesToTheSameAsACandidateOverAllPixels) {
+    Job candidate = job_;
+    candidate.pixels = 0;
+    candidate.frames = 0;
+    candidate.countsSteps = false;
+    const Measurement all = must(Meter{*renderer_}.measure(candidate));
+    Job picture{.scene = withCandidate(job_.scene, job_.candidate),
+                .size = job_.size,
+                .aim = Aim::kPicture};
+    double largest = 0.0;
+    double squares = 0.0;
+    std::uint64_t pixels = 0;
+    for (const int step : {4, 2, 1}) {
+        picture.grid = {.step = step, .refines = step < 4, .endRow = job_.size.y};
+        const Measurement part = must(inParts(picture));
+        EXPECT_EQ(part.off.size(), part.all.pixels);
+        for (const float off : part.off) largest = std::max<double>(largest, off);
+        squares += part.all.rms * part.all.rms * static_cast<double>(part.all.pixels);
+        pixels += part.all.pixels;
+    }
+    EXPECT_EQ(pixels, all.all.pixels);
+    EXPECT_EQ(static_cast<float>(largest), static_cast<float>(all.all.max));
+    EXPECT_NEAR(std::sqrt(squares / static_cast<double>(pixels)), all.all.rms, 1e-15);
+    EXPECT_GT(all.all.max, 0.0);
+    // Another way to draw: the reference is known.
+    picture.grid = {.step = 4, .refines = false, .endRow = job_.size.y};
+    picture.scene.layers[0].integrator = scene::Integrator::kExact;
+    EXPECT_EQ(must(inParts(picture)).reference.rays, 0U);
+}
+
+TEST_F(MeterTest, AGridWithoutPixelsIsRefused) {
+    Job picture{
+        .scene = job_.scene, .size = job_.size, .aim = Aim::kPicture, .grid = {.endRow = 0}};
+    EXPECT_EQ(inParts(picture).error().code, ErrorCode::kInvalidArgument);
 }
 
 TEST_F(MeterTest, AnotherJobBeginsAnew) {

@@ -49,8 +49,7 @@ TEST_F(SceneDiffCost, TheFirstPictureBringsEverythingOnce) {
     const auto info = drawn();
     EXPECT_TRUE(info.drawn);
     EXPECT_EQ(info.work.textureUploads, 1U) << "voxels";
-    EXPECT_EQ(info.work.bufferUploads, 5U)
-        << "their ranges for both interpolations, the empty space, the map and the blocks";
+    EXPECT_EQ(info.work.bufferUploads, 3U) << "the empty space, the map and the blocks";
     EXPECT_EQ(info.work.programsBuilt, 2U) << "the march and the resolve";
     EXPECT_EQ(info.work.drawCalls, 2U);
     EXPECT_EQ(info.work.framesDrawn, 1U);
@@ -96,8 +95,7 @@ TEST_F(SceneDiffCost, AFieldSwitchIsItsVoxelsTheFirstTimeAndNothingLater) {
     scene_.layers[0].field = "falling";
     auto info = drawn();
     EXPECT_EQ(info.work.textureUploads, 1U) << "voxels of the other channel";
-    EXPECT_EQ(info.work.bufferUploads, 3U)
-        << "their ranges for both interpolations, the empty space";
+    EXPECT_EQ(info.work.bufferUploads, 2U) << "its empty space, and the blocks with its box";
     EXPECT_EQ(info.work.programsBuilt, 0U);
     scene_.layers[0].field = "rising";
     info = drawn();
@@ -110,12 +108,41 @@ TEST_F(SceneDiffCost, AModelSwitchIsAProgramTheFirstTimeAndNothingLater) {
     scene_.layers[0].model = RayModel::kMip;
     auto info = drawn();
     EXPECT_EQ(info.work.programsBuilt, 1U);
-    EXPECT_EQ(info.work.bufferUploads, 0U);
+    EXPECT_EQ(info.work.bufferUploads, 2U) << "the ranges that extremes follow, and the blocks";
     EXPECT_EQ(info.work.textureUploads, 0U);
     scene_.layers[0].model = RayModel::kVolume;
     info = drawn();
     EXPECT_TRUE(info.drawn);
     EXPECT_EQ(info.work.programsBuilt, 0U);
+    EXPECT_EQ(info.work.bufferUploads, 1U) << "the blocks";
+}
+
+// Ranges of blocks and empty space are there for the samplings and models that read them.
+TEST_F(SceneDiffCost, BlocksOfVoxelsAreUploadedAsSamplesAskForThem) {
+    const auto buffers = [&](const char* what, std::size_t blocksAndMap, std::size_t ofVoxels) {
+        const auto work = drawn().work;
+        EXPECT_EQ(work.bufferUploads, blocksAndMap + ofVoxels) << what;
+    };
+    scene::Layer& layer = scene_.layers[0];
+    const auto sparse = layer.map;
+    layer.map.points = {{.value = 0.5F, .extinction = 0.1F}};
+    buffers("nothing is empty", 2, 0);
+    layer.model = RayModel::kSplat;
+    buffers("every value adds", 0, 0);
+    layer.model = RayModel::kMip;
+    buffers("ranges of trilinear values", 0, 1);
+    layer.sampling = scene::Sampling::kNearest;
+    buffers("nearest values have the same", 0, 0);
+    layer.sampling = scene::Sampling::kTricubic;
+    buffers("ranges of tricubic values", 0, 1);
+    layer.model = RayModel::kMinip;
+    buffers("which minima follow too", 0, 0);
+    layer.model = RayModel::kVolume;
+    layer.sampling = scene::Sampling::kTrilinear;
+    layer.map = sparse;
+    buffers("empty space, its box and the map", 2, 1);
+    layer.voxelEvaluator = scene::VoxelEvaluator::kSlices;
+    buffers("slices pass over nothing; their planes, the blocks without the box", 1, 1);
 }
 
 TEST_F(SceneDiffCost, ABackgroundEditOnlyResolvesAgain) {

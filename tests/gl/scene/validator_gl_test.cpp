@@ -229,6 +229,7 @@ void Validator::addUserCode() {
                                         .interval = variant >= 48,
                                         .clipPlanes = bit(variant, 2) ? 2 : 0,
                                         .otherChannels = bricked ? 0 : 2,
+                                        .byDistance = !bricked && bit(variant, 3),
                                         .field = {.bricked = bricked,
                                                   .type = static_cast<data::VoxelType>(variant % 4),
                                                   .coarserLevels = 2}};
@@ -370,6 +371,7 @@ void Validator::addOtherPasses() {
                                            {"kChannelSearch", 0xe4},
                                            {"kEarlyStop", bit(variant, 2)},
                                            {"kSkipBricks", bit(variant, 1)},
+                                           {"kByDistance", bit(variant, 1) && bit(variant, 3)},
                                            {"kShaded", bit(variant, 2)},
                                            {"kInterval", bit(variant, 3)},
                                            {"kJitters", bit(variant, 4)},

@@ -7,10 +7,10 @@
 #include "renderer/plan/effects.h"
 #include "renderer/scene/cover.h"
 #include "renderer/scene/shown_values.h"
+#include "tests/support/edited_renderers.h"
 #include "tests/support/phantoms.h"
 #include "tests/support/render_test.h"
 #include "tests/support/volume_reference.h"
-#include "tests/support/without_skipping.h"
 
 namespace volcast {
 namespace {

@@ -1,20 +1,12 @@
 // The march against the same integrals in double precision (tests/support/volume_reference.h).
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdint>
 #include <functional>
-#include <optional>
-#include <string>
-#include <string_view>
 #include <vector>
 
-#include "renderer/plan/effects.h"
 #include "renderer/scene/ray_models.h"
-#include "tests/support/phantoms.h"
-#include "tests/support/render_test.h"
+#include "tests/gl/volume/blobs_fixture.h"
 #include "tests/support/volume_reference.h"
-#include "tests/support/without_skipping.h"
 
 namespace volcast {
 namespace {
@@ -23,42 +15,8 @@ using scene::Projection;
 using scene::RayModel;
 using scene::Sampling;
 
-const support::GridPlace kPlace{.size = {37, 21, 50},
-                                .spacing = {0.4, 0.7, 0.25},
-                                .origin = {-3.0, 900.0, 5.0},
-                                .direction = support::turn({2, -1, 1}, 63.0)};
-
-/// Blobs in an empty box, so that some bricks hold nothing.
-double blobs(const glm::dvec3& p) {
-    const auto blob = [&](const glm::dvec3& c, double r) {
-        const glm::dvec3 d = (p - c) / r;
-        return std::exp(-glm::dot(d, d));
-    };
-    return 80.0 * blob({8, 7, 9}, 5.0) + 100.0 * blob({28, 15, 40}, 6.0) + 0.5 * std::sin(p.x);
-}
-
-data::TransferFunction map(float lowest) {
-    return {{{.value = 10.0F, .colour = {0.1F, 0.1F, 0.9F}, .extinction = lowest},
-             {.value = 30.0F, .colour = {0.2F, 0.9F, 0.1F}, .extinction = 0.3F},
-             {.value = 60.0F, .colour = {0.9F, 0.8F, 0.1F}, .extinction = 0.1F},
-             {.value = 90.0F, .colour = {1.0F, 0.1F, 0.1F}, .extinction = 2.0F}}};
-}
-
-class MarchReference : public support::RenderTest {
+class MarchReference : public support::BlobsTest {
 protected:
-    MarchReference() : volume_{support::volumeOf(kPlace, blobs)} {
-        renderer_->addDataset("volume", volume_);
-        scene::Layer layer;
-        layer.id = "layer";
-        layer.dataset = "volume";
-        layer.map = map(0.0F);
-        scene_.layers.push_back(layer);
-        center_ =
-            kPlace.origin + kPlace.direction * (0.5 * kPlace.spacing * glm::dvec3(kPlace.size - 1));
-        scene_.camera = {.eye = center_ + glm::dvec3(21, 14, 25), .center = center_};
-        scene_.camera.orthographicHeight = 18.0;
-    }
-
     /// Of the ray's own number of samples, as the contract of the march has it.
     [[nodiscard]] int samplesOf(const support::VolumeReference& reference,
                                 const support::ReferenceRay& ray) const {
@@ -119,10 +77,6 @@ protected:
         }
         EXPECT_GT(met, 400);
     }
-
-    data::Volume volume_;
-    scene::Scene scene_;
-    glm::dvec3 center_{0.0};
 };
 
 TEST_F(MarchReference, EmissionAndAbsorptionTrilinear) {
@@ -252,192 +206,6 @@ TEST_F(MarchReference, OnlySamplesInTheIntervalCount) {
         return glm::dvec4(glm::dvec3((largest + 1.0) / 102.0), 1.0);
     });
     EXPECT_GT(within, 100);
-}
-
-// A map that is all but transparent keeps the plan from skipping, and changes nothing visible.
-TEST_F(MarchReference, SkippingEmptyBricksChangesNothing) {
-    scene_.layers[0].stepWorld = 0.07;
-    const auto skipped = draw(scene_, {64, 48});
-    scene_.layers[0].map = map(1e-30F);
-    const auto full = draw(scene_, {64, 48});
-    ASSERT_TRUE(skipped.info.plan.layers[0].has(plan::kEmptyBricks));
-    ASSERT_FALSE(full.info.plan.layers[0].has(plan::kEmptyBricks));
-    ASSERT_NE(skipped.info.plan.id, full.info.plan.id);
-    for (std::size_t i = 0; i < full.linear.size(); ++i) {
-        ASSERT_NEAR(skipped.linear[i], full.linear[i], 1e-6F) << i;
-    }
-}
-
-TEST_F(MarchReference, SkippingEmptyBricksChangesNoIntegrator) {
-    scene_.layers[0].stepWorld = 0.07;
-    for (const scene::IntegratorRow& row : scene::row(RayModel::kVolume).voxelIntegrators) {
-        scene_.layers[0].integrator = row.integrator;
-        scene_.layers[0].map = map(0.0F);
-        const auto skipped = draw(scene_, {64, 48});
-        scene_.layers[0].map = map(1e-30F);
-        const auto full = draw(scene_, {64, 48});
-        ASSERT_TRUE(skipped.info.plan.layers[0].has(plan::kEmptyBricks));
-        ASSERT_FALSE(full.info.plan.layers[0].has(plan::kEmptyBricks));
-        // Adaptive steps begin anew behind a brick: at other places, each within its error.
-        const float most = row.integrator == scene::Integrator::kAdaptive ? 1.0F / 255 : 2e-6F;
-        for (std::size_t i = 0; i < full.linear.size(); ++i) {
-            ASSERT_NEAR(skipped.linear[i], full.linear[i], most) << row.name << ' ' << i;
-        }
-    }
-}
-
-TEST_F(MarchReference, SkippingBricksChangesNoModel) {
-    const auto withoutSkipping = support::rendererWithoutSkipping(device());
-    withoutSkipping->addDataset("volume", volume_);
-    scene_.layers[0].levels.values = {20.0F, 45.0F, 70.0F};
-    int skipping = 0;
-    for (const scene::RayModelRow& row : scene::rayModels()) {
-        if (!row.onVolumes || row.chunk.empty()) continue;
-        for (int variant = 0; variant < 6; ++variant) {
-            const bool interval = variant % 2 == 1;
-            scene_.layers[0].model = row.model;
-            scene_.layers[0].sampling = static_cast<Sampling>(variant / 2);
-            scene_.layers[0].interval.reset();
-            if (interval) scene_.layers[0].interval = data::Range{.min = 15.0F, .max = 60.0F};
-            const auto skipped = draw(scene_, {64, 48});
-            const auto full = support::must(tryDraw(*withoutSkipping, scene_, {64, 48}));
-            skipping += skipped.info.plan.layers[0].has(plan::kEmptyBricks) ? 1 : 0;
-            EXPECT_EQ(skipped.linear, full.linear) << row.name << ' ' << variant;
-        }
-    }
-    EXPECT_EQ(skipping, 3 * 12) << "all but mip_colour and splat of all values";
-}
-
-// Beside a single voxel of 100 tricubic values are below 0, and between two above 100: what only
-// such values show must not be passed over with their bricks, whose voxels show nothing.
-TEST_F(MarchReference, SkippingBricksSeesTheOvershootOfTricubicValues) {
-    const auto withoutSkipping = support::rendererWithoutSkipping(device());
-    const data::Volume spikes = support::volumeOf({.size = {50, 50, 50}}, [](const glm::dvec3& p) {
-        const glm::ivec3 i{p};
-        const bool plate = i.x < 25 && (i.z == 24 || i.z == 25);
-        const bool spike = (i.x * 7 + i.y * 11 + i.z * 13) % 53 < 2 && i.z > 15 && i.z < 34;
-        return plate || spike ? 100.0 : 0.0;
-    });
-    renderer_->addDataset("spikes", spikes);
-    withoutSkipping->addDataset("spikes", spikes);
-    scene::Layer& layer = scene_.layers[0];
-    layer.dataset = "spikes";
-    layer.sampling = Sampling::kTricubic;
-    layer.stepWorld = 0.31;
-    layer.headlight = false;
-    layer.levels.values = {-4.0F};
-    scene_.camera.eye = {80, 60, 90};
-    scene_.camera.center = {24, 24, 24};
-    const data::TransferFunction below{{{.value = -3.0F, .colour = {1, 1, 1}, .extinction = 1.0F},
-                                        {.value = -1.0F, .colour = {1, 1, 1}, .extinction = 0.0F}}};
-    const data::TransferFunction above{
-        {{.value = 101.0F, .colour = {1, 1, 1}, .extinction = 0.0F},
-         {.value = 103.0F, .colour = {1, 1, 1}, .extinction = 1.0F}}};
-    for (const RayModel model : {RayModel::kVolume, RayModel::kXray, RayModel::kMip,
-                                 RayModel::kMinip, RayModel::kIsosurface}) {
-        for (const data::TransferFunction& map : {below, above}) {
-            layer.model = model;
-            layer.map = map;
-            const auto skipped = draw(scene_, {64, 48});
-            const auto full = support::must(tryDraw(*withoutSkipping, scene_, {64, 48}));
-            EXPECT_EQ(skipped.linear, full.linear) << scene::name(model);
-            const bool shows = std::ranges::any_of(full.linear, [](float v) { return v > 0.01F; });
-            EXPECT_TRUE(shows) << scene::name(model) << ' ' << map.points[0].value;
-        }
-    }
-}
-
-// Interpolating in the shader, as is done where the texture unit keeps too few bits, gives the
-// same picture.
-TEST_F(MarchReference, InterpolatingInTheShaderAgreesWithTheTextureUnit) {
-    int replaced = 0;
-    const auto byHand = support::must(scene::Renderer::create(
-        device(), [&replaced](std::string_view path) -> std::optional<std::string> {
-            auto text = shading::embeddedChunks()(path);
-            const std::string condition = "if (kTexels == kTexture && kFilterInHardware)";
-            if (const auto at = text->find(condition); at != std::string::npos) {
-                ++replaced;
-                text->replace(at, condition.size(), "if (false)");
-            }
-            return text;
-        }));
-    byHand->addDataset("volume", volume_);
-    scene_.layers[0].stepWorld = 0.11;
-    const auto expected = draw(scene_, {64, 48});
-    const auto picture = support::must(tryDraw(*byHand, scene_, {64, 48}));
-    EXPECT_GT(replaced, 0);
-    for (std::size_t i = 0; i < picture.linear.size(); ++i) {
-        ASSERT_NEAR(picture.linear[i], expected.linear[i], 2e-4F) << i;
-    }
-}
-
-TEST_F(MarchReference, HardMapsAndCamerasGiveFiniteNumbers) {
-    data::TransferFunction hard{{{.value = 0.0F, .colour = {1, 0, 0}, .extinction = 0.0F},
-                                 {.value = 20.0F, .colour = {1, 0, 0}, .extinction = 1e30F},
-                                 {.value = 20.0F, .colour = {0, 1, 0}, .extinction = 0.0F},
-                                 {.value = 20.000002F, .colour = {0, 1, 0}, .extinction = 1e38F},
-                                 {.value = 1e38F, .colour = {0, 0, 1e6F}, .extinction = 0.0F}}};
-    scene_.layers[0].map = hard;
-    scene_.camera.up = {0, 0, 1};
-    for (const glm::dvec3& offset :
-         {glm::dvec3(1e-6, 0, 0), glm::dvec3(40, 0, 0), glm::dvec3(1e9, 1, 1),
-          kPlace.direction * glm::dvec3(0, 30, 0)}) {
-        scene_.camera.eye = center_ + offset;
-        for (const scene::RayModelRow& row : scene::rayModels()) {
-            if (!row.onVolumes || row.chunk.empty()) continue;
-            scene_.layers[0].model = row.model;
-            scene_.layers[0].levels.values = {20.0F, 1e38F};
-            const auto picture = draw(scene_, {24, 24});
-            for (const float value : picture.linear) {
-                ASSERT_TRUE(std::isfinite(value)) << offset.x;
-            }
-        }
-    }
-}
-
-TEST_F(MarchReference, TheStepIsEnlargedAndSaidSoBeforeTheLoopLimitIsReached) {
-    scene_.layers[0].stepWorld = 1e-9;
-    const auto picture = draw(scene_, {4, 4});
-    EXPECT_TRUE(picture.info.plan.layers[0].has(plan::kStepEnlarged));
-    const double longest = glm::length(kPlace.spacing * glm::dvec3(kPlace.size - 1));
-    EXPECT_NEAR(picture.info.plan.layers[0].stepWorld, longest / plan::kMaxRaySamples, 1e-12);
-    scene_.layers[0].stepWorld = 0.05;
-    const auto coarse = draw(scene_, {4, 4});
-    EXPECT_FALSE(coarse.info.plan.layers[0].has(plan::kStepEnlarged));
-    for (std::size_t i = 0; i < picture.linear.size(); ++i) {
-        EXPECT_NEAR(picture.linear[i], coarse.linear[i], 5e-3F) << "cut off by the loop limit?";
-    }
-}
-
-// Integers of 8 and 16 bits arrive as they are.
-TEST_F(MarchReference, IntegerVoxelsKeepTheirValues) {
-    const auto drawInteger = [&](data::VoxelType type, const auto& values) {
-        data::VolumeInput input;
-        input.size = {2, 2, 2};
-        input.type = type;
-        input.channels.push_back({.name = "i", .unit = "", .voxels = {}});
-        const auto bytes = std::as_bytes(std::span{values});
-        input.channels[0].voxels.assign(bytes.begin(), bytes.end());
-        renderer_->addDataset("integers", support::must(data::buildVolume(std::move(input))));
-        scene::Scene scene;
-        scene.layers.push_back(scene_.layers[0]);
-        scene.layers[0].dataset = "integers";
-        scene.layers[0].model = RayModel::kMip;
-        scene.layers[0].sampling = Sampling::kNearest;
-        scene.layers[0].map = {{{.value = -65536.0F, .colour = glm::vec3(0.0F)},
-                                {.value = 65536.0F, .colour = glm::vec3(1.0F)}}};
-        scene.camera = {.eye = {0.4, 0.6, 9}, .center = {0.4, 0.6, 0}};
-        return draw(scene, {1, 1}).at(0, 0).r * 131072.0 - 65536.0;
-    };
-    EXPECT_NEAR(
-        drawInteger(data::VoxelType::kU8, std::array<std::uint8_t, 8>{1, 2, 251, 4, 5, 6, 9, 8}),
-        251.0, 0.02);
-    EXPECT_NEAR(drawInteger(data::VoxelType::kU16,
-                            std::array<std::uint16_t, 8>{1, 2, 3, 4, 5, 6, 65535, 8}),
-                65535.0, 0.02);
-    EXPECT_NEAR(drawInteger(data::VoxelType::kI16,
-                            std::array<std::int16_t, 8>{-9, -9, -30000, -9, -9, -9, -32768, -9}),
-                -30000.0, 0.02);
 }
 
 }  // namespace

@@ -17,6 +17,8 @@ TEST(ProcessTree, CountsOurselvesAndOurChildren) {
     EXPECT_GE(alone->rootDescriptors, 3U);
     EXPECT_GT(alone->rootBytes, 100'000U);
     EXPECT_EQ(alone->treeBytes, alone->rootBytes);
+    EXPECT_EQ(alone->treeThreads, alone->rootThreads);
+    EXPECT_EQ(alone->treeDescriptors, alone->rootDescriptors);
     const auto child = workers::ChildProcess::spawn(
         {.program = "/bin/sleep", .arguments = {"60"}, .environment = {}});
     ASSERT_TRUE(child.has_value());
@@ -24,6 +26,8 @@ TEST(ProcessTree, CountsOurselvesAndOurChildren) {
     ASSERT_TRUE(both.has_value());
     EXPECT_EQ(both->processes, 2U);
     EXPECT_GT(both->treeBytes, both->rootBytes);
+    EXPECT_EQ(both->treeThreads, both->rootThreads + 1);
+    EXPECT_GE(both->treeDescriptors, both->rootDescriptors);
 }
 
 TEST(ProcessTree, OfNoProcessIsEmpty) {

@@ -61,6 +61,12 @@ std::vector<std::pair<std::string, std::string>> clientMeanings() {
         {"patch_decoded", R"({"patchDecoded":{"codec":"CODEC_H264","rgb":"AAAA/////wAA"}})"},
         {"patch_failed", R"({"patchDecoded":{"codec":"CODEC_VP9","error":"not supported"}})"},
         {"pick", R"({"pick":{"view":7,"inputSeq":"9007199254740993","x":8191,"y":12}})"},
+        {"measure_difference",
+         R"({"measureDifference":{"view":7,"maxPixels":65536,"maxMs":20000}})"},
+        {"measure_difference_stop", R"({"measureDifference":{"view":7,"stop":true}})"},
+        {"measure_accuracy_estimate", R"({"measureAccuracy":{"view":7,"estimate":true}})"},
+        {"draw_thumbnail", R"({"drawThumbnail":{"view":7,"request":3,"scene":{"layers":[{)"
+                           R"("id":"main","model":"RAY_MODEL_MIP"}]},"width":96,"height":72}})"},
         {"inject_fault", R"({"injectFault":{"view":7,"fault":"crash"}})"},
         {"ping", R"({"ping":{"token":"9007199254740993"}})"},
         {"hello_again", R"({"hello":{"major":1,"minor":2,"person":"Zoë","resume":"a-b_c"}})"},
@@ -126,6 +132,19 @@ std::vector<std::pair<std::string, std::string>> serverMeanings() {
          R"("distance":3.25,"cell":0,"colour":{"r":0.5,"g":1}}})"},
         {"picked_voxel", R"({"picked":{"view":7,"inputSeq":"41","layer":"main","values":[)"
                          R"({"field":"f"}],"position":{},"voxel":[1,0,67],"colour":{}}})"},
+        {"difference_report",
+         R"({"differenceReport":{"view":7,"inputSeq":"41","width":4,"height":2,"step":1,)"
+         R"("refines":true,"firstRow":1,"off":"ADwAAP97AHw=","pixels":"8","maxError":0.5,)"
+         R"("rmsError":0.25,"shareOver255":0.125,"progress":1,"done":true}})"},
+        {"difference_stopped",
+         R"({"differenceReport":{"view":7,"done":true,"stopped":"the view changed"}})"},
+        {"accuracy_estimated",
+         R"({"accuracyReport":{"view":7,"done":true,"progress":1,"rows":[{"layer":"main",)"
+         R"("integrator":"INTEGRATOR_AVERAGE","maxError":0.25,"medianMs":12.5}],)"
+         R"("estimated":true}})"},
+        {"thumbnail", R"({"thumbnail":{"view":7,"request":3,"codec":"CODEC_JPEG",)"
+                      R"("picture":"/9j/"}})"},
+        {"thumbnail_refused", R"({"thumbnail":{"view":7,"request":4,"refusal":"no memory"}})"},
         {"picked_nothing", R"({"picked":{"view":7,"inputSeq":"41","x":3,"y":4}})"},
         {"view_opened", R"({"viewOpened":{"view":7,"scene":)" + scene + "}}"},
         {"view_status_recovering",

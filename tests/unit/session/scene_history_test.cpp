@@ -74,5 +74,22 @@ TEST_F(SceneHistoryTest, TheOldestStepsAreForgotten) {
     EXPECT_EQ(current->camera.eye.x, 7);
 }
 
+TEST_F(SceneHistoryTest, TheNewestStepsAreSavedAndGoneBackToAfterwards) {
+    for (int i = 1; i <= 30; ++i) change(i, true, SceneHistory::kPause);
+    ASSERT_TRUE(undo());
+    ASSERT_TRUE(undo());
+    const SceneHistory::Saved saved = history.save();
+    EXPECT_EQ(saved.undo.size(), SceneHistory::kMostSaved);
+    EXPECT_EQ(saved.redo.size(), 2U);
+    history = {};
+    EXPECT_FALSE(history.canUndo());
+    history.restore(saved);
+    ASSERT_TRUE(redo());
+    EXPECT_EQ(current->camera.eye.x, 29);
+    for (std::size_t i = 0; i <= SceneHistory::kMostSaved; ++i) ASSERT_TRUE(undo()) << i;
+    EXPECT_EQ(current->camera.eye.x, 8);
+    EXPECT_FALSE(undo());
+}
+
 }  // namespace
 }  // namespace volcast::session

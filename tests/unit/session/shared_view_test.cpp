@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "renderer/worker/scene_message.h"
 #include "tests/unit/session/scripted_render.h"
 
 namespace volcast::session {
@@ -53,11 +54,12 @@ protected:
                            {.person = ++people, .name = "p" + std::to_string(people), .role = role},
                            Clock::now());
     }
-    void look(ViewerId viewer, std::uint64_t seq) {
+    void look(ViewerId viewer, std::uint64_t seq) { look(viewer, seq, static_cast<double>(seq)); }
+    void look(ViewerId viewer, std::uint64_t seq, double x) {
         v1::Update update;
         update.set_input_seq(seq);
         v1::Camera& camera = *update.mutable_camera();
-        camera.mutable_eye()->set_x(static_cast<double>(seq));
+        camera.mutable_eye()->set_x(x);
         camera.mutable_center();
         camera.mutable_up()->set_z(1);
         camera.set_fovy_degrees(40);
@@ -117,6 +119,99 @@ TEST_F(SharedViewTest, FiftyWatchersOfOneSizeCostOneDrawAndOneEncodeAFrame) {
     // The first draw was asked for when the first of them came, and overtaken.
     EXPECT_EQ(view->counts().drawsAsked, 6U);
     EXPECT_EQ(view->counts().encodes, 5U);
+}
+
+TEST_F(SharedViewTest, AnUpdateThatChangesNothingIsAnsweredByThePictureThatIsThere) {
+    const ViewerId viewer = join(), watcher = join();
+    look(viewer, 2, 5.0);
+    drawLast();
+    std::shared_ptr<const std::vector<std::byte>> exact;
+    for (const ViewerId one : {viewer, watcher}) {
+        const auto jpeg = frameOf(one);
+        ASSERT_TRUE(jpeg && jpeg->header.codec() == v1::CODEC_JPEG);
+        ack(one, jpeg->sequence);
+        const auto png = frameOf(one);
+        ASSERT_TRUE(png && png->header.final());
+        ack(one, png->sequence);
+        exact = png->payload;
+    }
+    const SharedView::Counts before = view->counts();
+    look(viewer, 3, 5.0);
+    v1::Update whole, nothing, sameSize;
+    *whole.mutable_scene() = worker::toMessage(newest().scene);
+    sameSize.mutable_viewport()->set_width(8);
+    sameSize.mutable_viewport()->set_height(6);
+    std::uint64_t seq = 3;
+    for (v1::Update* update : {static_cast<v1::Update*>(nullptr), &whole, &nothing, &sameSize}) {
+        if (update != nullptr) {
+            update->set_input_seq(++seq);
+            ASSERT_TRUE(view->update(viewer, *update, Clock::now()).has_value());
+        }
+        const auto answer = frameOf(viewer);
+        ASSERT_TRUE(answer.has_value()) << seq;
+        EXPECT_EQ(answer->header.input_seq(), seq);
+        EXPECT_TRUE(answer->header.final() && answer->header.lossless()) << seq;
+        EXPECT_FALSE(answer->header.redrawn()) << seq;
+        EXPECT_EQ(answer->payload, exact) << seq;
+        ack(viewer, answer->sequence);
+        EXPECT_FALSE(view->takeFrame(watcher, Clock::now()).has_value()) << seq;
+    }
+    EXPECT_EQ(view->counts().drawsAsked, before.drawsAsked);
+    EXPECT_EQ(view->counts().encodes, before.encodes);
+    look(viewer, 7, 6.0);
+    EXPECT_EQ(view->counts().drawsAsked, before.drawsAsked + 1);
+    drawLast();
+    const auto moved = frameOf(viewer);
+    ASSERT_TRUE(moved.has_value());
+    EXPECT_EQ(moved->header.input_seq(), 7U);
+    EXPECT_TRUE(moved->header.redrawn());
+}
+
+// Before the exact picture is there, the answer is the JPEG once more; the exact one still follows.
+TEST_F(SharedViewTest, AnUpdateThatChangesNothingDoesNotPutOffTheExactPicture) {
+    const ViewerId viewer = join();
+    look(viewer, 2, 5.0);
+    drawLast();
+    const auto jpeg = frameOf(viewer);
+    ASSERT_TRUE(jpeg.has_value());
+    ack(viewer, jpeg->sequence);
+    look(viewer, 3, 5.0);
+    const auto again = frameOf(viewer);
+    ASSERT_TRUE(again.has_value());
+    EXPECT_EQ(again->header.input_seq(), 3U);
+    ack(viewer, again->sequence);
+    const auto exact = again->header.final() ? again : frameOf(viewer);
+    ASSERT_TRUE(exact.has_value());
+    EXPECT_TRUE(exact->header.final());
+    EXPECT_EQ(exact->header.input_seq(), 3U);
+    EXPECT_EQ(view->counts().drawsAsked, 2U);  // The first as it joined.
+}
+
+TEST_F(SharedViewTest, WhatIsBeingDrawnAnswersAnUpdateThatChangesNothing) {
+    const ViewerId viewer = join();
+    look(viewer, 2, 5.0);
+    look(viewer, 3, 5.0);
+    drawLast();
+    const auto frame = frameOf(viewer);
+    ASSERT_TRUE(frame.has_value());
+    EXPECT_EQ(frame->header.input_seq(), 3U);
+}
+
+TEST_F(SharedViewTest, AnUpdateThatChangesNothingLeavesWhatMayBeRedone) {
+    const ViewerId viewer = join();
+    look(viewer, 2, 5.0);
+    v1::Undo undo;
+    view->undo(viewer, undo, Clock::now());
+    drawLast();
+    const auto scene = newest().scene;
+    ASSERT_TRUE(frameOf(viewer).has_value());
+    v1::Update whole;
+    whole.set_input_seq(4);
+    *whole.mutable_scene() = worker::toMessage(scene);
+    ASSERT_TRUE(view->update(viewer, whole, Clock::now()).has_value());
+    undo.set_redo(true);
+    view->undo(viewer, undo, Clock::now());
+    EXPECT_EQ(newest().scene.camera.eye.x, 5.0);
 }
 
 TEST_F(SharedViewTest, AWatcherWhoComesLateGetsThePictureThatIsThere) {
@@ -216,6 +311,57 @@ TEST_F(SharedViewTest, PicksOfTwoViewersAreBothAnswered) {
         ASSERT_TRUE(mail.has_value());
         EXPECT_EQ(mail->picked().x(), x);
     }
+}
+
+TEST_F(SharedViewTest, ThumbnailsOfTwoViewersAreDrawnOneAfterTheOtherInAViewOfTheirOwn) {
+    const ViewerId one = join(), two = join();
+    drawLast();
+    v1::DrawThumbnail asked;
+    asked.set_width(4);
+    asked.set_height(3);
+    *asked.mutable_scene() = worker::toMessage(render.requests[0].scene);
+    for (const ViewerId viewer : {one, two}) {
+        asked.set_request(static_cast<std::uint32_t>(10 + viewer));
+        ASSERT_TRUE(view->drawThumbnail(viewer, asked).has_value());
+    }
+    ASSERT_TRUE(render.has(render.requests, 2)) << "the second waits for the first";
+    for (std::size_t i = 1; i <= 2; ++i) {
+        ASSERT_TRUE(render.has(render.requests, i + 1));
+        const workers::RenderRequest request = [&] {
+            const std::lock_guard lock{render.mutex};
+            return render.requests[i];
+        }();
+        EXPECT_NE(request.view, view->global());
+        EXPECT_TRUE(request.background);
+        EXPECT_EQ(request.size, glm::ivec2(4, 3));
+        if (i == 2) {
+            events.failed(request.view, request.tag,
+                          fail(ErrorCode::kShaderBuild, "no such model"));
+            break;
+        }
+        events.rendered(drawn(request));
+    }
+    const auto answer = [&](ViewerId viewer) -> std::optional<v1::Thumbnail> {
+        const auto until = Clock::now() + std::chrono::seconds{30};
+        while (Clock::now() < until) {
+            while (const auto mail = view->takeMail(viewer)) {
+                if (mail->has_thumbnail()) return mail->thumbnail();
+            }
+            std::this_thread::yield();
+        }
+        return std::nullopt;
+    };
+    const auto first = answer(one), second = answer(two);
+    ASSERT_TRUE(first && second);
+    EXPECT_EQ(first->request(), 10 + one);
+    EXPECT_EQ(first->codec(), v1::CODEC_JPEG);
+    EXPECT_FALSE(first->picture().empty());
+    EXPECT_EQ(second->request(), 10 + two);
+    EXPECT_EQ(second->refusal(), "no such model");
+    const std::uint64_t own = render.requests[1].view;
+    view->leave(one);
+    view->leave(two);
+    EXPECT_EQ(render.dropped, (std::vector<std::uint64_t>{view->global(), own}));
 }
 
 /// Draws at once, on a thread of its own, as the real one does.

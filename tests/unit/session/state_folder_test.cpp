@@ -20,6 +20,12 @@ SavedView exampleView(const std::string& id) {
     layer.dataset = "d";
     layer.field = "f";
     layer.map.points = {{.value = 0.25F}};
+    for (const double x : {1.0, 2.0}) {
+        scene::Scene before = view.scene;
+        before.camera.eye.x = x;
+        view.history.undo.push_back(std::make_shared<const scene::Scene>(before));
+    }
+    view.history.redo = {view.history.undo.back()};
     SavedView::Person& person = view.people.emplace_back();
     person.member.person = 7;
     person.member.name = "Zoë \"Z\"";
@@ -39,12 +45,29 @@ TEST(SavedView, IsReadAsItWasWritten) {
     EXPECT_EQ(read->shared, view.shared);
     EXPECT_EQ(read->inputSeq, view.inputSeq);
     EXPECT_EQ(read->scene, view.scene);
+    ASSERT_EQ(read->history.undo.size(), 2U);
+    EXPECT_EQ(*read->history.undo[0], *view.history.undo[0]);
+    EXPECT_EQ(*read->history.undo[1], *view.history.undo[1]);
+    ASSERT_EQ(read->history.redo.size(), 1U);
+    EXPECT_EQ(*read->history.redo[0], *view.history.redo[0]);
     ASSERT_EQ(read->people.size(), 1U);
     EXPECT_EQ(read->people[0].member.name, view.people[0].member.name);
     EXPECT_EQ(read->people[0].member.role, v1::ROLE_CONTROL);
     EXPECT_EQ(read->people[0].member.size, view.people[0].member.size);
     EXPECT_TRUE(read->people[0].steers);
     EXPECT_EQ(read->people[0].tokenHash, "hash");
+}
+
+TEST(SavedView, OfAServerThatKeptNoHistoryHasNone) {
+    SavedView view = exampleView("v");
+    view.history = {};
+    std::string text = toJson(view);
+    const std::string none = R"(,"undo":[],"redo":[])";
+    ASSERT_NE(text.find(none), std::string::npos) << text;
+    text.erase(text.find(none), none.size());
+    const auto read = savedViewFromJson(text);
+    ASSERT_TRUE(read.has_value()) << read.error().message;
+    EXPECT_TRUE(read->history.undo.empty() && read->history.redo.empty());
 }
 
 TEST(SavedView, EveryPrefixAndEveryDamagedByteIsReadOrRefusedButNeverCrashes) {

@@ -37,11 +37,28 @@ TEST(ViewQueue, ViewsTakeTurnsHoweverOftenOneSubmits) {
     queue.submit(request(2, 1), kNow);
     queue.submit(request(3, 1), kNow);
     for (std::uint64_t tag = 2; tag < 20; ++tag) queue.submit(request(1, tag), kNow);
+    EXPECT_EQ(queue.waiting(), 3U);
     EXPECT_EQ(take(queue), Taken(1, 19));
+    EXPECT_EQ(queue.waiting(), 2U);
     queue.submit(request(1, 20), kNow);
     EXPECT_EQ(take(queue), Taken(2, 1));
     EXPECT_EQ(take(queue), Taken(3, 1));
     EXPECT_EQ(take(queue), Taken(1, 20));
+}
+
+TEST(ViewQueue, WhatIsInTheBackgroundComesWhenNothingElseWaits) {
+    ViewQueue queue;
+    RenderRequest small = request(1, 1);
+    small.background = true;
+    queue.submit(small, kNow);
+    queue.submit(request(2, 1), kNow);
+    queue.submit(request(3, 1), kNow);
+    EXPECT_EQ(take(queue), Taken(2, 1));
+    queue.submit(request(2, 2), kNow);
+    EXPECT_EQ(take(queue), Taken(3, 1));
+    EXPECT_EQ(take(queue), Taken(2, 2));
+    EXPECT_EQ(take(queue), Taken(1, 1));
+    EXPECT_EQ(take(queue), Taken(0, 0));
 }
 
 TEST(ViewQueue, DroppedViewIsForgotten) {

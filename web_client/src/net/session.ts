@@ -217,6 +217,12 @@ export class Session implements Wire {
       case "accuracyReport":
         this.#viewOf(body.value.view)?.questions.measured(body.value);
         break;
+      case "differenceReport":
+        this.#viewOf(body.value.view)?.questions.compared(body.value);
+        break;
+      case "thumbnail":
+        this.#viewOf(body.value.view)?.questions.thumbnail(body.value);
+        break;
       case "shaderDescription":
         for (const view of this.#views) view.questions.described(body.value);
         break;

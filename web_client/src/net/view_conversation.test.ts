@@ -63,6 +63,7 @@ function setUp(beginning: ViewBeginning = {}, shown: ViewDocument | undefined = 
       restored: say("restored"),
       followed: say("followed"),
       moved: say("moved"),
+      thumbnail: say("thumbnail"),
       current: () => currentDocument(state),
     },
     beginning,

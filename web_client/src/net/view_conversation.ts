@@ -1,4 +1,3 @@
-import { measuringEnded } from "../state/accuracy";
 import { type AppState, notify } from "../state/app_state";
 import type { ViewDocument } from "../state/document";
 import { isShared, steers, whyNotSteering } from "../state/people";
@@ -12,6 +11,7 @@ import {
   DatasetState,
   type People,
   type SceneChanged,
+  type Thumbnail,
   type ViewOpened,
   ViewState,
   type ViewStatus,
@@ -38,6 +38,8 @@ export interface ViewEvents {
   /** The scene is another, by somebody else or by a step in its history. */
   followed(scene: Scene): void;
   moved(camera: Camera): void;
+  /** The thumbnail that was asked for last, or why there is none. */
+  thumbnail(answer: Thumbnail): void;
   /** What is shown now with all its edits, to open it again after a loss. */
   current(): ViewDocument | undefined;
 }
@@ -84,7 +86,7 @@ export class ViewConversation {
     this.#view = beginning.number;
     this.#wish = beginning.wish;
     this.people = new ViewPeople(wire, state, view);
-    this.questions = new ViewQuestions(wire, state, view);
+    this.questions = new ViewQuestions(wire, state, view, (answer) => events.thumbnail(answer));
     const changed = (): void => this.people.stepped({ canUndo: true, canRedo: false });
     this.#updates = new ViewUpdates(wire, state, view, changed, beginning.inputSeq ?? 0n);
   }
@@ -165,7 +167,7 @@ export class ViewConversation {
     this.#opening = undefined;
     this.#returned = undefined;
     this.#state.view.value = undefined;
-    measuringEnded(this.#state, "the connection was lost");
+    this.questions.ended("the connection was lost");
   }
 
   /** A connection is there; `resumed`: the server says next which views it kept. */
@@ -284,7 +286,7 @@ export class ViewConversation {
     this.#wish = undefined;
     this.#state.pendingDataset.value = undefined;
     this.#state.view.value = { state: ViewState.ACTIVE, message: "" };
-    measuringEnded(this.#state, "other data is shown");
+    this.questions.ended("other data is shown");
     if (along) {
       this.#close(view);
     } else {

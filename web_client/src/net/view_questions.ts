@@ -1,17 +1,31 @@
-import type { MessageInitShape } from "@bufbuild/protobuf";
-import { measuringBegan, measuringEnded, measuringReported } from "../state/accuracy";
+import { create, type MessageInitShape } from "@bufbuild/protobuf";
+import {
+  isMeasuring,
+  type MeasureAim,
+  measuringBegan,
+  measuringEnded,
+  measuringReported,
+} from "../state/accuracy";
 import type { AppState } from "../state/app_state";
+import { comparingBegan, comparisonEnded, comparisonReported } from "../state/difference";
 import { sentenceOf } from "../state/refusal";
 import { type CodeOfData, takeDescription } from "../state/shader_actions";
 import type { Error as ErrorMessage } from "./gen/volcast/v1/error_pb";
-import type {
-  AccuracyReport,
-  Picked,
-  PinsSchema,
-  Plan,
-  ShaderDescription,
+import type { Scene } from "./gen/volcast/v1/scene_pb";
+import {
+  type AccuracyReport,
+  type DifferenceReport,
+  type Picked,
+  type PinsSchema,
+  type Plan,
+  type ShaderDescription,
+  type Thumbnail,
+  ThumbnailSchema,
 } from "./gen/volcast/v1/session_pb";
 import type { Wire } from "./wire";
+
+/** Of a comparison: every pixel of a megapixel, if a minute is enough. */
+const kCompared = { maxPixels: 2 ** 20, maxMs: 60_000 };
 
 /** What one asks about a view, whoever steers it; answers arrive in its state. */
 export class ViewQuestions {
@@ -24,10 +38,19 @@ export class ViewQuestions {
   /** The code whose description is waited for. */
   #describing: { readonly request: number; readonly asked: CodeOfData } | undefined;
 
-  constructor(wire: Wire, state: AppState, view: () => number | undefined) {
+  /** Takes the thumbnail that was asked for last, or why there is none. */
+  readonly thumbnail: (answer: Thumbnail) => void;
+
+  constructor(
+    wire: Wire,
+    state: AppState,
+    view: () => number | undefined,
+    thumbnail: (answer: Thumbnail) => void,
+  ) {
     this.#wire = wire;
     this.#state = state;
     this.#view = view;
+    this.thumbnail = thumbnail;
   }
 
   /** Asks what a pixel of the picture of `inputSeq` shows; the answer is in `state.picked`. */
@@ -50,17 +73,42 @@ export class ViewQuestions {
     if (view !== undefined) this.#wire.send({ case: "explain", value: { view } });
   }
 
-  /** Measures the view's accuracy and cost; reports arrive in `state.measured`. */
-  measureAccuracy(): void {
+  /** Measures ways to draw the view, what plans know of them, or effects; reports arrive in `state[aim]`. */
+  measure(aim: MeasureAim): void {
     const view = this.#view();
     if (view === undefined) return;
-    measuringBegan(this.#state);
-    this.#wire.send({ case: "measureAccuracy", value: { view } });
+    measuringBegan(this.#state, aim);
+    const [estimate, effects] = [aim === "estimated", aim === "effectTimes"];
+    this.#wire.send({ case: "measureAccuracy", value: { view, estimate, effects } });
+  }
+
+  /** Compares the picture with the reference; parts arrive in `state.difference`. */
+  compare(): void {
+    const view = this.#view();
+    if (view === undefined) return;
+    comparingBegan(this.#state);
+    this.#wire.send({ case: "measureDifference", value: { view, ...kCompared } });
+  }
+
+  stopComparing(): void {
+    const view = this.#view();
+    if (view === undefined || !this.#state.difference.value?.running) return;
+    this.#wire.send({ case: "measureDifference", value: { view, stop: true } });
+  }
+
+  /** Asks for a small picture of a scene; false where there is no view to ask in. */
+  drawThumbnail(request: number, scene: Scene, width: number, height: number): boolean {
+    const view = this.#view();
+    if (view === undefined) return false;
+    return this.#wire.send({
+      case: "drawThumbnail",
+      value: { view, request, scene, width, height },
+    });
   }
 
   stopMeasuring(): void {
     const view = this.#view();
-    if (view === undefined || !this.#state.measured.value?.running) return;
+    if (view === undefined || !isMeasuring(this.#state)) return;
     this.#wire.send({ case: "measureAccuracy", value: { view, stop: true } });
   }
 
@@ -90,6 +138,16 @@ export class ViewQuestions {
     measuringReported(this.#state, report);
   }
 
+  compared(report: DifferenceReport): void {
+    comparisonReported(this.#state, report);
+  }
+
+  /** Nothing more will be heard of what was measured or compared. */
+  ended(why: string): void {
+    measuringEnded(this.#state, why);
+    comparisonEnded(this.#state, why);
+  }
+
   described({ request, controls, complaints }: ShaderDescription): void {
     const described = this.#describing;
     if (request !== described?.request) return;
@@ -100,10 +158,14 @@ export class ViewQuestions {
   tookError(error: ErrorMessage): boolean {
     // A pixel of a picture that newer ones have pushed out: the next picture is asked again.
     if (error.field === "input_seq" && error.inputSeq === this.#picking?.inputSeq) return true;
-    const refused = error.field === "view" && this.#state.measured.value?.running === true;
-    if (refused) {
-      measuringEnded(this.#state, sentenceOf({ field: "", message: error.message }));
+    if (error.field.startsWith("draw_thumbnail")) {
+      this.thumbnail(create(ThumbnailSchema, { refusal: error.message }));
+      return true;
     }
+    const running = isMeasuring(this.#state) || this.#state.difference.value?.running === true;
+    const aboutIt = error.field === "view" || /^scene\.layers\[\d+\]\.shader$/.test(error.field);
+    const refused = running && aboutIt && error.inputSeq === 0n;
+    if (refused) this.ended(sentenceOf({ field: "", message: error.message }));
     return refused;
   }
 }

@@ -6,6 +6,7 @@ import { dragged } from "../view/camera";
 import {
   drawAutomatically,
   drawBy,
+  isMeasuring,
   isOfThisView,
   measuringBegan,
   measuringEnded,
@@ -73,5 +74,20 @@ describe("a measurement", () => {
   it("is not of the view once the camera turned", () => {
     if (state.orbit.value) state.orbit.value = dragged(state.orbit.value, 1, 0, 0.1);
     expect(isCurrent()).toBe(false);
+  });
+});
+
+describe("what is measured", () => {
+  it("is one thing at a time, each kept where it belongs", () => {
+    measuringBegan(state, "effectTimes");
+    expect(state.measured.value?.running).toBe(false);
+    const effects = [{ layer: "first", effect: "light", ms: 2.5, refusal: "" }];
+    measuringReported(
+      state,
+      create(AccuracyReportSchema, { progress: 1, done: true, effects, pictureMs: 12 }),
+    );
+    expect(state.effectTimes.value).toMatchObject({ running: false, pictureMs: 12, effects });
+    expect(state.measured.value?.effects).toEqual([]);
+    expect(isMeasuring(state)).toBe(false);
   });
 });

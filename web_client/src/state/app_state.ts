@@ -1,6 +1,6 @@
 import { computed, signal } from "@preact/signals";
 import type { Codec, Timings } from "../net/gen/volcast/v1/frame_pb";
-import type { Layer, Scene } from "../net/gen/volcast/v1/scene_pb";
+import type { Layer, RayModel, Scene } from "../net/gen/volcast/v1/scene_pb";
 import type {
   DatasetInfo,
   FieldInfo,
@@ -17,10 +17,13 @@ import type { TransferFunction } from "../transfer/transfer_function";
 import type { Bounds, Orbit } from "../view/camera";
 import { length, subtract, type Vec3 } from "../view/vec3";
 import type { Measured } from "./accuracy";
+import type { Difference } from "./difference";
 import { type History, startHistory } from "./history";
+import type { ModelThumbnail } from "./model_thumbnails";
 import type { Recording } from "./recording";
 import type { Sample } from "./samples";
 import type { DescribedCode } from "./shader_actions";
+import { kUsualPlaying, type Playing } from "./time_steps";
 import { kUsualOptions, type ViewOptions } from "./view_options";
 
 export type ConnectionStatus =
@@ -200,6 +203,20 @@ export function createAppState(shared: SharedState = createSharedState()) {
     plan: signal<Plan | undefined>(undefined),
     /** What ways to draw a view are worth, where that was measured. */
     measured: signal<Measured | undefined>(undefined),
+    /** The same as plans with bounds know it, where that was asked. */
+    estimated: signal<Measured | undefined>(undefined),
+    /** What effects of the picture take, where that was measured. */
+    effectTimes: signal<Measured | undefined>(undefined),
+    /** The picture's difference from the reference is shown over it. */
+    comparing: signal(false),
+    difference: signal<Difference | undefined>(undefined),
+    /** What the end of the difference's scale stands for, in 1/255. */
+    differenceRange: signal(4),
+    /** What ray models make of the data as it is shown. */
+    thumbnails: signal<ReadonlyMap<RayModel, ModelThumbnail>>(new Map()),
+    /** The models whose thumbnails are in sight. */
+    pictured: signal<readonly RayModel[]>([]),
+    playing: signal<Playing>(kUsualPlaying),
     newestInput: signal(0n),
     framesPerSecond: signal(0),
     latency: signal<{ readonly p50: number; readonly p95: number } | undefined>(undefined),

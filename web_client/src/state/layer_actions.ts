@@ -25,18 +25,23 @@ import type { AppState, MapEdit } from "./app_state";
 import { isEmpty, middleLevel, movedTo, valuesOf } from "./levels";
 import { fittedTo, kRunsCode, type Slot } from "./models";
 
+/** What changes of a layer that is shown by another ray model, so that something is drawn. */
+export function partsFor(
+  layer: Layer,
+  model: RayModel,
+  field: FieldInfo | undefined,
+): Partial<Layer> {
+  const needsLevels = model === RayModel.ISOSURFACE && isEmpty(layer.levels) && field;
+  return { ...fittedTo(layer, model), ...(needsLevels ? { levels: middleLevel(field) } : {}) };
+}
+
 /** Another ray model, with what it needs to draw something. */
 export function chooseModel(state: AppState, model: RayModel): void {
   const layer = state.layer.value;
-  const field = state.field.value;
   if (!layer) return;
   const code = layer.shader?.code;
   if (code && !kRunsCode.has(model)) state.codeDraft.value ??= code;
-  const needsLevels = model === RayModel.ISOSURFACE && isEmpty(layer.levels) && field;
-  changeLayer(state, {
-    ...fittedTo(layer, model),
-    ...(needsLevels ? { levels: middleLevel(field) } : {}),
-  });
+  changeLayer(state, partsFor(layer, model, state.field.value));
 }
 
 /** A field with the scale that its map was made for. */

@@ -8,6 +8,10 @@ export interface ViewOptions {
   readonly box: boolean;
   readonly legend: boolean;
   readonly hud: boolean;
+  /** Ray models are shown by what they make of the data. */
+  readonly thumbnails: boolean;
+  /** Clip planes have handles in the picture. */
+  readonly handles: boolean;
 }
 
 export type ViewOption = keyof ViewOptions;
@@ -19,6 +23,8 @@ export const kUsualOptions: ViewOptions = {
   box: false,
   legend: true,
   hud: false,
+  thumbnails: false,
+  handles: true,
 };
 
 const kKey = "volcast.options";

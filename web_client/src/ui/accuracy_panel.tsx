@@ -5,6 +5,7 @@ import {
   Integrator,
   RayModel,
 } from "../net/gen/volcast/v1/scene_pb";
+import { stopsOf } from "../state/accuracy_stops";
 import { changeLayer, changeScene, isMesh } from "../state/actions";
 import type { AppState } from "../state/app_state";
 import {
@@ -17,10 +18,14 @@ import {
 import { isRefused } from "../state/refusal";
 import { formatNumber } from "./format";
 import { NumberLine, SelectLine } from "./inputs";
+import { lazy } from "./lazy";
+import type { AppPort } from "./port";
 
 interface Props {
   readonly state: AppState;
 }
+
+const AccuracySlider = lazy(async () => (await import("./accuracy_slider")).AccuracySlider);
 
 const kWishes: readonly (readonly [Accuracy_Kind, string])[] = [
   [Accuracy_Kind.AUTO, "Automatic"],
@@ -104,13 +109,15 @@ function Choices({ state }: Props) {
 }
 
 /** What a picture is to be worth. */
-export function AccuracyPanel({ state }: Props) {
+export function AccuracyPanel({ state, port }: Props & { readonly port: AppPort }) {
   const layer = state.layer.value;
   if (!layer || layer.shader?.code) return null; // Code has one way.
+  const several = stopsOf(state).stops.length > 1;
   return (
     <section class="section" aria-labelledby="accuracy-heading">
       <h2 id="accuracy-heading">Accuracy</h2>
       <div class="options">
+        {several && <AccuracySlider state={state} port={port} />}
         <Wish state={state} />
         {isMesh(state) && <Choices state={state} />}
       </div>

@@ -10,6 +10,7 @@ import { BadgeView } from "./badge";
 import { ChannelList } from "./channel_list";
 import { ClipEditor } from "./clip_editor";
 import { DataList } from "./data_list";
+import { DifferencePanel } from "./difference_panel";
 import { ExplainPanel } from "./explain_panel";
 import { FieldPicker } from "./field_picker";
 import { Help } from "./help";
@@ -26,6 +27,7 @@ import { RecordingChip } from "./recording_chip";
 import { RefusalNote } from "./refusal_note";
 import { ShaderPanel } from "./shader_panel";
 import { SteerNote } from "./steer_note";
+import { TimePanel } from "./time_panel";
 import { ViewMenu } from "./view_menu";
 import { VoxelPanel } from "./voxel_panel";
 
@@ -198,14 +200,16 @@ export function App({ panes, portOf, helpOpen, shareOpen }: Props) {
             <DataList state={state} port={port} />
             <ModelPicker state={state} />
             <FieldPicker state={state} />
+            <TimePanel state={state} />
             <ChannelList state={state} />
             <MapEditor state={state} slot="first" />
             <MapEditor state={state} slot="second" />
             <VoxelPanel state={state} />
             <ShaderPanel state={state} />
-            <AccuracyPanel state={state} />
+            <AccuracyPanel state={state} port={port} />
           </Settings>
           <MeasurePanel state={state} port={port} />
+          <DifferencePanel state={state} port={port} />
           <ExplainPanel state={state} port={port} />
           <Settings state={state}>
             <ClipEditor state={state} />

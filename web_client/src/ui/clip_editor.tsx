@@ -2,6 +2,7 @@ import { create } from "@bufbuild/protobuf";
 import { type ClipPlane, ClipPlaneSchema } from "../net/gen/volcast/v1/scene_pb";
 import { changeScene, endGesture } from "../state/actions";
 import type { AppState } from "../state/app_state";
+import { boxPlanes } from "../state/clip_handles";
 import {
   type AxisIndex,
   axisPlaneOf,
@@ -76,10 +77,18 @@ export function ClipEditor({ state }: { readonly state: AppState }) {
     const plane = create(ClipPlaneSchema, planeMessage(nextPlane(planes, bounds)));
     changeScene(state, { clipPlanes: [...planes, plane] });
   };
+  const replace = (next: readonly ClipPlane[]): void =>
+    changeScene(state, { clipPlanes: [...next] });
   return (
     <section class="section" aria-labelledby="clip-heading">
       <div class="section-head">
         <h2 id="clip-heading">Clipping</h2>
+        {planes.length > 1 && (
+          <button type="button" class="text-button push" onClick={() => replace([])}>
+            Remove all
+          </button>
+        )}
+        <IconButton icon="box" label="Clip to a box" onClick={() => replace(boxPlanes(bounds))} />
         <IconButton
           icon="add"
           label="Add a clip plane"

@@ -28,7 +28,7 @@ export function ExplainPanel({ state, port }: Props) {
         <summary>
           <h2>How it is drawn</h2>
         </summary>
-        {open.value && <PlanList state={state} />}
+        {open.value && <PlanList state={state} port={port} />}
       </details>
     </section>
   );

@@ -20,6 +20,12 @@ const kRows: readonly (readonly [keys: string, what: string])[] = [
   ["?", "This help"],
 ];
 
+const kClipRows: readonly (readonly [keys: string, what: string])[] = [
+  ["Drag, arrows", "Move a plane; with Shift in small steps"],
+  ["Page Up and Down, Home, End", "Far; to the ends of the data"],
+  ["Delete", "Remove the plane"],
+];
+
 const kMapRows: readonly (readonly [keys: string, what: string])[] = [
   ["Double click", "Add a point, or delete the one under it"],
   ["Drag, arrows", "Move a point; with Shift in small steps"],
@@ -57,6 +63,8 @@ export function Help({ open }: { readonly open: Signal<boolean> }) {
       </header>
       <h3>Picture</h3>
       <Keys rows={kRows} />
+      <h3>Handles of clip planes</h3>
+      <Keys rows={kClipRows} />
       <h3>Colours and opacity</h3>
       <Keys rows={kMapRows} />
     </dialog>

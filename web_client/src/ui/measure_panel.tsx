@@ -37,7 +37,7 @@ export function MeasurePanel({ state, port }: Props) {
         <button
           type="button"
           class="text-button"
-          onClick={running ? port.stopMeasuring : port.measureAccuracy}
+          onClick={running ? port.stopMeasuring : () => port.measure("measured")}
         >
           {running ? "Stop" : "Measure"}
         </button>

@@ -1,6 +1,8 @@
 import type { Pane } from "../pane";
 import type { Panes } from "../panes";
+import type { AppState } from "../state/app_state";
 import { badgeOf } from "../state/badge";
+import { whyNotSteering } from "../state/people";
 import { IconButton } from "./icons";
 import { Check } from "./inputs";
 import { lazy } from "./lazy";
@@ -13,6 +15,16 @@ interface Props {
 }
 
 const Overlay = lazy(async () => (await import("./overlay")).Overlay);
+
+const Difference = lazy(async () => (await import("./difference_overlay")).DifferenceOverlay);
+
+const ClipHandles = lazy(async () => (await import("./overlay_clip")).ClipHandles);
+
+/** Whoever does not steer has nothing to hold. */
+const hasHandles = (state: AppState): boolean =>
+  state.options.value.handles &&
+  (state.scene.value?.clipPlanes.length ?? 0) > 0 &&
+  whyNotSteering(state) === undefined;
 
 /** Fetched only where something of it is to be seen. */
 function Overlays({ state }: Pick<Pane, "state">) {
@@ -73,7 +85,9 @@ export function PaneGrid({ panes, portOf }: Props) {
                 if (host && element.parentNode !== host) host.append(element);
               }}
             />
+            {pane.state.comparing.value && <Difference state={pane.state} port={portOf(pane)} />}
             <Overlays state={pane.state} />
+            {hasHandles(pane.state) && <ClipHandles state={pane.state} />}
             <PickedLine state={pane.state} />
             {several && active && <div class="pane-frame" />}
             {several && <PaneHead pane={pane} number={i + 1} active={active} port={portOf(pane)} />}

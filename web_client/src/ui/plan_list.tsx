@@ -1,6 +1,8 @@
 import type { Effect, LayerPlan, Plan } from "../net/gen/volcast/v1/session_pb";
+import { isOfThisPicture, type Measured } from "../state/accuracy";
 import type { AppState } from "../state/app_state";
 import { formatBytes, formatCount, formatMs, formatNumber } from "./format";
+import type { AppPort } from "./port";
 
 function wayOf({ evaluator, integrator, drawnWith }: LayerPlan): string {
   const with_ = drawnWith ? `drawn with ${drawnWith}` : "";
@@ -17,17 +19,43 @@ function worthOf({ predictedMs, errorBound, stepWorld }: LayerPlan): string {
   return parts.filter(Boolean).join(", ");
 }
 
-function EffectItem({ name, on, reason }: Effect) {
+interface Props {
+  readonly state: AppState;
+  readonly port: AppPort;
+}
+
+/** What an effect takes, where that was measured of this very picture. */
+function timeOf(state: AppState, layer: string, effect: string): string {
+  const measured = state.effectTimes.value;
+  if (!measured || !isOfThisPicture(state, measured)) return "";
+  const time = measured.effects.find((t) => t.layer === layer && t.effect === effect);
+  if (!time || time.refusal) return time?.refusal ?? "";
+  return time.ms < 0 ? `saves ${formatMs(-time.ms)}` : formatMs(time.ms);
+}
+
+interface EffectProps {
+  readonly effect: Effect;
+  readonly time: string;
+}
+
+function EffectItem({ effect: { name, on, reason }, time }: EffectProps) {
   return (
     <li class="effect" data-on={on ? "" : undefined}>
       <span class="effect-name">{name}</span>
+      <span class="effect-ms">{time}</span>
       <span class="effect-state">{on ? "on" : "off"}</span>
       <span class="effect-reason">{reason}</span>
     </li>
   );
 }
 
-function LayerItem({ layer, only }: { readonly layer: LayerPlan; readonly only: boolean }) {
+interface LayerProps {
+  readonly state: AppState;
+  readonly layer: LayerPlan;
+  readonly only: boolean;
+}
+
+function LayerItem({ state, layer, only }: LayerProps) {
   return (
     <li>
       <h3 class="plan-way">
@@ -37,7 +65,11 @@ function LayerItem({ layer, only }: { readonly layer: LayerPlan; readonly only: 
       <p class="hint">{worthOf(layer)}</p>
       <ul class="effects">
         {layer.effects.map((effect) => (
-          <EffectItem key={effect.name} {...effect} />
+          <EffectItem
+            key={effect.name}
+            effect={effect}
+            time={timeOf(state, layer.layer, effect.name)}
+          />
         ))}
       </ul>
     </li>
@@ -56,17 +88,55 @@ function timesOf({ timings, work }: Plan): readonly (readonly [string, string])[
   ];
 }
 
+function effectsSaid(state: AppState, measured: Measured | undefined): string {
+  if (!measured || !isOfThisPicture(state, measured)) {
+    return "Effects are measured by drawing without each of them.";
+  }
+  if (measured.running) return "";
+  if (measured.stopped) return `Stopped: ${measured.stopped}.`;
+  return `Of ${formatMs(measured.pictureMs)} that this picture takes, medians of seven.`;
+}
+
+/** Measures, on request, what the effects of this picture take. */
+function EffectTimes({ state, port }: Props) {
+  const measured = state.effectTimes.value;
+  const running = measured?.running ?? false;
+  return (
+    <div class="effect-times">
+      <p class="hint" role="status">
+        {effectsSaid(state, measured)}
+      </p>
+      {running && (
+        <progress aria-label="Measuring effects" max={1} value={measured?.progress ?? 0} />
+      )}
+      <button
+        type="button"
+        class="text-button"
+        onClick={running ? port.stopMeasuring : () => port.measure("effectTimes")}
+      >
+        {running ? "Stop" : "Measure the effects"}
+      </button>
+    </div>
+  );
+}
+
 /** The server's plan of the newest picture: by layer what is on or off and why, then the times. */
-export function PlanList({ state }: { readonly state: AppState }) {
+export function PlanList({ state, port }: Props) {
   const plan = state.plan.value;
   if (!plan) return null;
   return (
     <div class="plan" data-input-seq={String(plan.inputSeq)}>
       <ul>
         {plan.layers.map((layer) => (
-          <LayerItem key={layer.layer} layer={layer} only={plan.layers.length === 1} />
+          <LayerItem
+            key={layer.layer}
+            state={state}
+            layer={layer}
+            only={plan.layers.length === 1}
+          />
         ))}
       </ul>
+      <EffectTimes state={state} port={port} />
       <h3 class="plan-way">This picture took</h3>
       <dl class="plan-times">
         {timesOf(plan).map(([name, value]) => (

@@ -1,4 +1,5 @@
 import type { Role } from "../net/gen/volcast/v1/session_pb";
+import type { MeasureAim } from "../state/accuracy";
 import type { TurnWish } from "../state/recording";
 import type { ViewOption } from "../state/view_options";
 
@@ -11,8 +12,11 @@ export interface ViewPort {
   toggleProjection(): void;
   resetCamera(): void;
   explain(): void;
-  measureAccuracy(): void;
+  /** Begins to measure; nothing else is measured then. */
+  measure(aim: MeasureAim): void;
   stopMeasuring(): void;
+  /** Shows the picture's difference from the reference, or shows it no more. */
+  compare(on: boolean): void;
   undo(): void;
   redo(): void;
   takeControl(): void;

@@ -19,6 +19,7 @@ const kShown: readonly (readonly [ViewOption, string])[] = [
   ["scaleBar", "Scale bar"],
   ["legend", "Legend (L)"],
   ["box", "Bounding box (B)"],
+  ["handles", "Handles of clip planes"],
   ["hud", "Performance (H)"],
 ];
 

@@ -6,15 +6,15 @@
 #include "renderer/gpu/target.h"
 #include "renderer/scene/ray_models.h"
 
-namespace volcast::mesh {
+namespace volcast::drawing {
 
-/// How cells that are drawn one by one become a picture, for one way to combine them.
+/// How cells or slices that are drawn one by one become a picture, for one way to combine them.
 struct CombineState {
     scene::Combine combine;
     gpu::Blend blend;
     gpu::DepthTest depth;
     float neutral;  ///< In all channels of what is drawn into, to begin with.
-    bool sorted;    ///< Cells must come front to back.
+    bool sorted;    ///< They must come front to back.
 };
 
 // 3.4e38 is what model/mip.glsl and its like begin with.
@@ -32,4 +32,4 @@ inline const CombineState& stateOf(scene::Combine combine) {
     return found;
 }
 
-}  // namespace volcast::mesh
+}  // namespace volcast::drawing
