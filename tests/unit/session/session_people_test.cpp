@@ -157,6 +157,9 @@ TEST_F(SessionPeople, ControlIsTakenAndTheNewInputsCount) {
     ASSERT_TRUE(refused.has_value());
     EXPECT_EQ(refused->code(), v1::ERROR_CODE_NOT_PERMITTED);
     EXPECT_EQ(refused->message(), "Ben steers this view; take control first");
+    const auto instead = ann->sceneChanged();
+    ASSERT_TRUE(instead.has_value());
+    EXPECT_EQ(instead->scene().camera().eye().x(), 5.0);
     ben->look(41, 7.0);
     EXPECT_EQ(ann->sceneChanged()->camera().eye().x(), 7.0);
     ann->takeControl();
