@@ -223,6 +223,7 @@ asio::awaitable<void> BeastServer::serve(Layer stream) {
     while (!draining_) {
         http::request_parser<http::empty_body> parser;
         parser.header_limit(kHeaderLimit);
+        parser.body_limit(boost::none);  // No body is read here; uploads have limits of their own.
         beast::get_lowest_layer(stream).expires_after(patience);
         const auto [error, bytes] =
             co_await http::async_read_header(stream, buffer, parser, kAsTuple);

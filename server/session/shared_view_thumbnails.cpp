@@ -32,6 +32,10 @@ Result<void> SharedView::drawThumbnail(ViewerId id, const v1::DrawThumbnail& mes
     if (!width) return width.error();
     const auto height = sideFrom(message.height(), "height");
     if (!height) return height.error();
+    if (message.scene().layers().empty()) {
+        return fail(ErrorCode::kInvalidArgument, "a thumbnail needs a scene with a layer",
+                    "draw_thumbnail.scene");
+    }
     auto scene = readyScene(message.scene(), parts_.catalogue);
     if (!scene) {
         Error error = std::move(scene).error();

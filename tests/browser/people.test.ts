@@ -205,7 +205,7 @@ describe("coming back", () => {
     await ann.page.reload();
     await ann.settled();
     await openShare(ann);
-    expect(await names(ann)).toEqual([
+    expect((await names(ann)).sort()).toEqual([
       expect.stringMatching(/Ann\s+you, steers/),
       expect.stringMatching(/Ben\s+watches/),
     ]);

@@ -54,7 +54,7 @@ function Field({ field, kind }: { readonly field: FieldInfo; readonly kind: Data
   const number = (x: number): string => `${formatNumber(x, 6)}${unit}`;
   return (
     <section class="field-facts">
-      <h4>{field.name}</h4>
+      <h3>{field.name}</h3>
       {field.histogram.length > 0 && <Histogram field={field} />}
       <Rows
         rows={[
@@ -89,7 +89,7 @@ function Log({ info, log }: { readonly info: DatasetInfo; readonly log: ImportLo
   const read = new Date(1000 * Number(log.finished));
   return (
     <section class="field-facts">
-      <h4>Import</h4>
+      <h3>Import</h3>
       <Rows
         rows={[
           ["Format", log.format],
