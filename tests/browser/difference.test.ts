@@ -70,7 +70,9 @@ describe("the difference from the reference", () => {
     await done();
     const size = (await client.fact("size")).split("x").map(Number);
     const thousands = Math.round(((size[0] ?? 0) * (size[1] ?? 0)) / 1000);
-    expect(await client.page.locator('[data-figure="pixels"]').textContent()).toBe(`${thousands} k`);
+    expect(await client.page.locator('[data-figure="pixels"]').textContent()).toBe(
+      `${thousands} k`,
+    );
     const largest = await figure("max");
     expect(largest).toBeGreaterThan(1);
     expect(await figure("rms")).toBeLessThan(largest);

@@ -75,7 +75,9 @@ describe("a clip plane's handle", () => {
     expect(large).toBeGreaterThan(0);
     expect(await picture()).not.toBe(before);
     await client.after(() => client.page.keyboard.press("Shift+ArrowDown"));
-    await expect.poll(async () => place + large - (await value(plane()))).toBeCloseTo(large / 10, 6);
+    await expect
+      .poll(async () => place + large - (await value(plane())))
+      .toBeCloseTo(large / 10, 6);
     expect(await plane().evaluate((e) => e === document.activeElement)).toBe(true);
     await client.after(undo);
     expect(await picture()).toBe(before);
