@@ -90,7 +90,9 @@ private:
     /// Lets the spare draw what the main worker drew last, where it would draw that in a new way.
     void rehearse();
     [[nodiscard]] bool spareReady() const;
-    [[nodiscard]] bool mayRehearse(const RenderRequest& request) const;
+    /// What is left to rehearse for the spare that is there; null: nothing.
+    [[nodiscard]] const RenderRequest* toRehearse() const;
+    [[nodiscard]] bool spareIdle() const;
     void checkTimes();
     void startWorkers();
     void start(Worker& worker);

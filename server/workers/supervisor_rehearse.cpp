@@ -5,30 +5,35 @@
 
 namespace volcast::workers {
 
-bool Supervisor::mayRehearse(const RenderRequest& request) const {
-    if (!rehearsal_.wants(spare_->pid(), request)) return false;
+const RenderRequest* Supervisor::toRehearse() const {
+    const RenderRequest* last = views_.lastDrawn();
+    if (last == nullptr || !rehearsal_.wants(spare_->pid(), *last)) return nullptr;
     std::uint64_t bytes = 0;
-    for (const scene::Layer& layer : request.scene.layers) {
+    for (const scene::Layer& layer : last->scene.layers) {
         const auto packed = datasets_.find(layer.dataset);
         struct stat about {};
-        if (packed == datasets_.end() || ::fstat(packed->second->get(), &about) != 0) return false;
+        if (packed == datasets_.end() || ::fstat(packed->second->get(), &about) != 0) {
+            return nullptr;
+        }
         bytes += static_cast<std::uint64_t>(about.st_size);
     }
-    return bytes <= Rehearsal::kMostBytes;
+    return bytes <= Rehearsal::kMostBytes ? last : nullptr;
+}
+
+bool Supervisor::spareIdle() const {
+    return spare_ && spare_->ready() && spare_->warm() && !rehearsal_.underWay();
 }
 
 bool Supervisor::spareReady() const {
-    if (!spare_ || !spare_->ready() || !spare_->warm() || rehearsal_.underWay()) return false;
-    const RenderRequest* last = views_.lastDrawn();
-    return last == nullptr || !mayRehearse(*last);
+    return spareIdle() && toRehearse() == nullptr;
 }
 
 void Supervisor::rehearse() {
-    if (!spare_ || !spare_->ready() || !spare_->warm() || inFlight_) return;
-    const RenderRequest* last = views_.lastDrawn();
-    if (last == nullptr || !mayRehearse(*last)) return;
-    if (!spare_->render(nextNumber_, *last, settings_.frameDeadline)) return;
-    rehearsal_.began(spare_->pid(), nextNumber_++, *last);
+    if (inFlight_ || !spareIdle()) return;
+    const RenderRequest* request = toRehearse();
+    if (request == nullptr) return;
+    if (!spare_->render(nextNumber_, *request, settings_.frameDeadline)) return;
+    rehearsal_.began(spare_->pid(), nextNumber_++, *request);
     static_cast<void>(spare_->flush());
 }
 

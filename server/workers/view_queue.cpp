@@ -65,7 +65,7 @@ void ViewQueue::succeeded(RenderRequest drawn) {
     const auto found = views_.find(drawn.view);
     if (found == views_.end()) return;
     found->second.lossesInARow = 0;
-    lastDrawn_ = drawn.view;
+    if (!drawn.background) lastDrawn_ = drawn.view;
     found->second.lastGood = std::move(drawn);
 }
 

@@ -44,7 +44,7 @@ public:
     std::optional<TimedRequest> next();
     /// `drawn` is now the view's last good request.
     void succeeded(RenderRequest drawn);
-    /// The newest good request of all views; null where there is none.
+    /// The newest good request of all views, those in the background aside; null: none.
     [[nodiscard]] const RenderRequest* lastDrawn() const;
     /// The worker refused the request, and lived.
     void refused(std::uint64_t view);

@@ -210,6 +210,22 @@ TEST(ViewQueue, RefusedRequestDoesNotBecomeTheLastGoodOne) {
     EXPECT_EQ(take(queue), Taken(1, 1));
 }
 
+TEST(ViewQueue, PicturesInTheBackgroundAreNotWhatWasDrawnLast) {
+    ViewQueue queue;
+    EXPECT_EQ(queue.lastDrawn(), nullptr);
+    for (const bool background : {false, true}) {
+        RenderRequest drawn = request(background ? 2 : 1, 7);
+        drawn.background = background;
+        queue.submit(drawn, kNow);
+        take(queue);
+        queue.succeeded(drawn);
+    }
+    ASSERT_NE(queue.lastDrawn(), nullptr);
+    EXPECT_EQ(queue.lastDrawn()->view, 1U);
+    queue.drop(1);
+    EXPECT_EQ(queue.lastDrawn(), nullptr);
+}
+
 TEST(ViewQueue, TakeAllEmptiesEveryMailbox) {
     ViewQueue queue;
     queue.submit(request(1, 1), kNow);
