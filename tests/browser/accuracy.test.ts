@@ -146,7 +146,7 @@ describe("how it is drawn", () => {
 
   it("is asked for only while it is open", async () => {
     await client.page.getByText("How it is drawn").click();
-    expect(await plan().count()).toBe(0);
+    await plan().waitFor({ state: "detached" });
     expect(client.complaints).toEqual([]);
   });
 });
