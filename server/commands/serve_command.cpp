@@ -72,6 +72,12 @@ Result<std::unique_ptr<session::UploadFolder>> openUploads(const ServeSettings& 
     if (settings.dataFolder.empty()) {
         return fail(ErrorCode::kInvalidArgument, "--allow-uploads needs a DATA_DIR to put them in");
     }
+    if (settings.uploads.needToken && settings.linkKeyFile.empty() &&
+        settings.stateFolder.empty()) {
+        return fail(ErrorCode::kInvalidArgument,
+                    "--uploads-need-token needs the key that tokens are signed with: "
+                    "--link-key-file, or --state-dir");
+    }
     return session::UploadFolder::create(settings.dataFolder, settings.uploads);
 }
 
@@ -223,7 +229,13 @@ void addUploads(CLI::App& command, ServeSettings& settings) {
     session::UploadLimits& limits = settings.uploads;
     CLI::Option* allowed =
         command.add_flag("--allow-uploads", settings.allowUploads,
-                         "Everybody who may connect may upload data into DATA_DIR/uploads");
+                         "Everybody who may connect, also by a link to watch, may upload data into "
+                         "DATA_DIR/uploads; see --uploads-need-token");
+    command
+        .add_flag(
+            "--uploads-need-token", limits.needToken,
+            "Only who brings an access token that `volcast token --role control` made uploads")
+        ->needs(allowed);
     const auto size = [&](const char* name, std::uint64_t& bytes, const char* text) {
         command
             .add_option_function<std::uint64_t>(
@@ -260,9 +272,10 @@ void addUploads(CLI::App& command, ServeSettings& settings) {
 void addState(CLI::App& command, ServeSettings& settings) {
     command.add_option("--state-dir", settings.stateFolder,
                        "Folder that keeps views over a restart; none: they end with the server");
-    command.add_option("--link-key-file", settings.linkKeyFile,
-                       "Key that share links are signed with, made where there is none; none: "
-                       "link.key in --state-dir, else one of this run");
+    command.add_option(
+        "--link-key-file", settings.linkKeyFile,
+        "Key that share links and access tokens are signed with, made where there is none; none: "
+        "link.key in --state-dir, else one of this run");
 }
 
 }  // namespace

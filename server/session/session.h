@@ -78,6 +78,8 @@ private:
     void hello(const v1::Hello& message);
     /// False where the connection ends.
     bool identify(const v1::Hello& message);
+    /// Where a token is asked for: what it allows; the client is told where it is none.
+    void takeAccess(const std::string& token);
     void welcome();
     void comeBack(const std::map<std::uint32_t, std::string>& views);
     void openDataset(const v1::OpenDataset& message);
@@ -128,6 +130,7 @@ private:
     std::uint64_t subscription_ = 0;
     bool greeted_ = false;
     PersonBook::Arrival who_;  ///< Once greeted.
+    bool mayUpload_ = false;
     bool resumed_ = false;
     Form form_ = Form::kBinary;
     ClientCodecs codecs_;
