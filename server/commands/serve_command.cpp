@@ -11,11 +11,13 @@
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include "renderer/base/printable.h"
 #include "server/commands/cache_folder.h"
 #include "server/session/thumbnails.h"
 #include "server/session/views.h"
 #include "server/settings.h"
 #include "server/video/video_patches.h"
+#include "server/video/video_stream.h"
 #include "server/workers/gpu_given_up.h"
 #include "server/workers/isolating_service.h"
 
@@ -36,6 +38,21 @@ void startLog(const std::string& level) {
     log->set_level(spdlog::level::from_str(level));
     log->flush_on(spdlog::level::trace);
     spdlog::set_default_logger(std::move(log));
+}
+
+/// Which encoder makes which video, and why not those before it.
+void logVideoEncoders() {
+    std::string others;
+    for (const video::EncoderFinding& encoder : video::videoEncoders()) {
+        if (!encoder.works) others += (others.empty() ? "" : "; ") + encoder.detail;
+        if (!encoder.used) continue;
+        spdlog::info(R"(event=video_encoder encoder={} not_used="{}")", encoder.name,
+                     base::printable(others, 1000));
+        others.clear();
+    }
+    if (!others.empty()) {
+        spdlog::warn(R"(event=video_encoder_missing not_used="{}")", base::printable(others, 1000));
+    }
 }
 
 int complain(const Error& error) {
@@ -106,6 +123,7 @@ int serve(ServeSettings settings) {
     auto catalogue = session::Catalogue::create(std::move(desc), **render);
     if (!catalogue) return complain(catalogue.error());
     (void)video::videoPatches();  // Encoders are tried now, not when the first client waits.
+    logVideoEncoders();
     auto encoders = std::make_unique<session::EncodePool>(settings.encodeThreads);
     auto kept = openState(settings);
     if (!kept) return complain(kept.error());
