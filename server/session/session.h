@@ -59,6 +59,8 @@ public:
     void receive(std::span<const std::byte> message, Form form, TimePoint now);
     /// The next message to send; control messages before frames.
     std::optional<Outgoing> next(TimePoint now);
+    /// A ping was answered after so long.
+    void ponged(std::chrono::microseconds roundTrip, TimePoint now) { path_.see(roundTrip, now); }
     void tick(TimePoint now);
     [[nodiscard]] std::optional<TimePoint> deadline(TimePoint now) const;
     /// Set when the connection is to be closed.
@@ -141,6 +143,8 @@ private:
     std::deque<v1::ServerMessage> waiting_;
     std::optional<Closing> closing_;
     MessageRate rate_;
+    static constexpr std::chrono::milliseconds kPathWindow{30'000};
+    Windowed<std::chrono::microseconds, std::less<>> path_{kPathWindow};  ///< Of pings.
 };
 
 }  // namespace volcast::session
