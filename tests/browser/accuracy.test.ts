@@ -1,28 +1,18 @@
-import { mkdirSync } from "node:fs";
 import { join } from "node:path";
-import type { Browser } from "playwright-core";
-import { afterAll, beforeAll, describe, expect, it } from "vitest";
+import { beforeAll, describe, expect, it } from "vitest";
 import { violations } from "./support/accessibility";
-import { Client, launch } from "./support/client";
+import type { Client } from "./support/client";
 import { hashOf } from "./support/pixels";
-import { Server, screenshotFolder } from "./support/server";
+import { screenshotFolder } from "./support/server";
+import { setUp } from "./support/set_up";
 
-let server: Server;
-let browser: Browser;
+const place = setUp();
 let client: Client;
 
 beforeAll(async () => {
-  mkdirSync(screenshotFolder(), { recursive: true });
-  server = await Server.start();
-  browser = await launch();
-  client = await Client.open(browser, server.url, { viewport: { width: 640, height: 1400 } });
+  client = await place.open({ viewport: { width: 640, height: 1400 } });
   const toggle = client.page.locator(".sheet-toggle");
   if (await toggle.isVisible()) await client.after(() => toggle.click());
-});
-
-afterAll(async () => {
-  await browser?.close();
-  await server?.stop();
 });
 
 const points = () => client.page.locator(".chart-point");
@@ -41,10 +31,12 @@ describe("error against time", () => {
     await measure().click();
     await points().first().waitFor({ timeout: kMeasuredMs });
     await measure().waitFor({ timeout: kMeasuredMs });
-    expect(await status().textContent()).toBe("");
+    await expect.poll(() => status().textContent()).toBe("");
     // Volume of a mesh: six integrators by walk and by projection.
-    expect(await points().count()).toBe(12);
-    expect(await client.page.locator(".chart-point[data-front]").count()).toBeGreaterThan(0);
+    await expect.poll(() => points().count()).toBe(12);
+    await expect
+      .poll(() => client.page.locator(".chart-point[data-front]").count())
+      .toBeGreaterThan(0);
     expect(await violations(client)).toEqual([]);
   });
 
@@ -55,9 +47,9 @@ describe("error against time", () => {
     if (!box) throw new Error("the point has no box");
     const { x, y } = { x: box.x + box.width / 2, y: box.y + box.height / 2 };
     await client.after(() => client.page.mouse.click(x, y));
-    expect(await rough.getAttribute("aria-pressed")).toBe("true");
+    await expect.poll(() => rough.getAttribute("aria-pressed")).toBe("true");
     expect(hashOf(await client.pixels())).not.toBe(before);
-    expect(await status().textContent()).toBe("");
+    await expect.poll(() => status().textContent()).toBe("");
     const automatic = client.page.getByRole("button", { name: "Automatic", exact: true });
     await client.after(() => automatic.click());
     expect(hashOf(await client.pixels())).toBe(before);
@@ -69,16 +61,16 @@ describe("error against time", () => {
     await client.after(() => client.page.keyboard.press("Enter"));
     await photograph("accuracy-640", ".chart-key");
     const pressed = client.page.locator('.chart-point[aria-pressed="true"]');
-    expect(await pressed.count()).toBe(1);
+    await expect.poll(() => pressed.count()).toBe(1);
     expect(await pressed.evaluate((e) => e === document.activeElement)).toBe(true);
   });
 
   it("is a table with the same rows and buttons", async () => {
     await client.page.getByText("In numbers").click();
-    expect(await client.page.locator(".accuracy-table tbody tr").count()).toBe(12);
+    await expect.poll(() => client.page.locator(".accuracy-table tbody tr").count()).toBe(12);
     const row = client.page.locator(".accuracy-table button", { hasText: "Exact · walk" });
     await client.after(() => row.click());
-    expect(await row.getAttribute("aria-pressed")).toBe("true");
+    await expect.poll(() => row.getAttribute("aria-pressed")).toBe("true");
     expect(await violations(client)).toEqual([]);
     await photograph("accuracy-table-640", ".accuracy-table");
   });
@@ -97,19 +89,19 @@ describe("error against time", () => {
 
   it("says that it is of an earlier view, once the camera turned", async () => {
     await client.after(() => client.drag(80, 20));
-    expect(await status().textContent()).toMatch(/as it was when/);
+    await expect.poll(() => status().textContent()).toMatch(/as it was when/);
   });
 
   it("stops on request and when the view changes, and says why", async () => {
     await measure().click();
     await client.page.getByRole("button", { name: "Stop", exact: true }).click();
     await measure().waitFor();
-    expect(await status().textContent()).toMatch(/^Stopped: stopped by the client/);
+    await expect.poll(() => status().textContent()).toMatch(/^Stopped: stopped by the client/);
     await measure().click();
     await client.page.getByRole("button", { name: "Stop", exact: true }).waitFor();
     await client.after(() => client.drag(-80, -20));
     await measure().waitFor();
-    expect(await status().textContent()).toMatch(/^Stopped: the view changed/);
+    await expect.poll(() => status().textContent()).toMatch(/^Stopped: the view changed/);
   });
 });
 
@@ -124,7 +116,7 @@ describe("how it is drawn", () => {
     expect(names.length).toBeGreaterThan(3);
     const reasons = await client.page.locator(".effect-reason").allTextContents();
     expect(reasons.every((r) => r.length > 5)).toBe(true);
-    expect(await plan().textContent()).toContain("exact");
+    await expect.poll(() => plan().textContent()).toContain("exact");
     expect(await violations(client)).toEqual([]);
     await photograph("explain-640", ".plan-times");
   });
@@ -141,7 +133,7 @@ describe("how it is drawn", () => {
     const radio = client.page.getByRole("radio", { name: "Surface", exact: true });
     await client.after(() => radio.check({ force: true }));
     await newest();
-    expect(await plan().textContent()).not.toBe(before);
+    await expect.poll(() => plan().textContent()).not.toBe(before);
   });
 
   it("is asked for only while it is open", async () => {
