@@ -78,6 +78,29 @@ describe("the slider from fastest to exact", () => {
     await expect.poll(() => automatic.count()).toBe(0);
   });
 
+  it("has times of voxels too, once it is reached for", async () => {
+    await client.choose("demo:volume");
+    await client.after(() =>
+      client.page.getByRole("radio", { name: /^Volume/ }).check({ force: true }),
+    );
+    await slider().blur();
+    await slider().focus();
+    await source("estimated");
+    const last = Number(await slider().getAttribute("max"));
+    expect(last).toBeGreaterThan(0);
+    const times: number[] = [];
+    for (let stop = 0; stop <= last; stop += 1) {
+      if (stop === 0) await client.after(() => slider().press("Home"));
+      else await client.after(() => slider().press("ArrowRight"));
+      await expect.poll(said).toMatch(/: [\d.]+ ms, error at most/);
+      times.push(Number(/: ([\d.]+) ms/.exec(await said())?.[1]));
+    }
+    expect(times.every((ms) => ms > 0)).toBe(true);
+    console.info(`predicted ms of voxels, fastest first: ${times.join(", ")}`);
+    await client.page.screenshot({ path: join(screenshotFolder(), "slider-voxels-760.png") });
+    await client.choose("demo:mesh");
+  });
+
   it.each([
     ["1280", { width: 1280, height: 900 }],
     ["390", { width: 390, height: 844 }],
