@@ -105,6 +105,35 @@ describe("error against time", () => {
   });
 });
 
+describe("when nothing happens", () => {
+  const wish = () => client.page.getByLabel("Also when nothing happens");
+
+  const stop = () => client.page.getByRole("button", { name: "Stop", exact: true });
+
+  it("is measured by itself if that is wished for, and begins anew when the view changed", async () => {
+    await client.after(() => client.page.setViewportSize({ width: 640, height: 700 }));
+    await wish().check();
+    await stop().waitFor();
+    await points().first().waitFor({ timeout: kMeasuredMs });
+    expect(await violations(client)).toEqual([]);
+    await photograph("measure-idle-640", ".measure-head");
+    await client.after(() => client.drag(-20, 15));
+    await expect.poll(() => status().textContent()).toMatch(/^Stopped: the view changed/);
+    await stop().waitFor();
+  });
+
+  it("ends when its place is scrolled away, and goes on when it is back", async () => {
+    await client.page.locator(".dataset").first().scrollIntoViewIfNeeded();
+    await measure().waitFor();
+    await expect.poll(() => status().textContent()).toMatch(/^Stopped: stopped by the client/);
+    await client.page.locator(".measure-head").scrollIntoViewIfNeeded();
+    await stop().click();
+    await measure().waitFor();
+    await wish().uncheck();
+    await client.after(() => client.page.setViewportSize({ width: 640, height: 1400 }));
+  });
+});
+
 describe("how it is drawn", () => {
   const plan = () => client.page.locator(".plan");
 
@@ -134,6 +163,33 @@ describe("how it is drawn", () => {
     await client.after(() => radio.check({ force: true }));
     await newest();
     await expect.poll(() => plan().textContent()).not.toBe(before);
+  });
+
+  it("measures what each effect that is on takes, of this very picture", async () => {
+    await client.choose("demo:volume");
+    await client.after(() => client.page.getByLabel("Light", { exact: true }).check());
+    const seq = await client.fact("inputSeq");
+    await client.page.waitForSelector(`.plan[data-input-seq="${seq}"]`);
+    const effects = client.page.locator(".effect");
+    const light = effects.filter({ has: client.page.locator('.effect-name:text-is("light")') });
+    await expect.poll(() => light.getAttribute("data-on")).toBe("");
+    await expect.poll(() => light.locator(".effect-state").innerText()).toBe("on");
+    await expect.poll(() => light.locator(".effect-ms").innerText()).toBe("");
+    await client.page.getByRole("button", { name: "Measure the effects" }).click();
+    const said = client.page.locator(".effect-times [role=status]");
+    await said
+      .filter({ hasText: /^Of .* ms that this picture takes/ })
+      .waitFor({ timeout: 60_000 });
+    await expect
+      .poll(() => light.locator(".effect-ms").innerText())
+      .toMatch(/^(saves )?[\d.]+ ms$/);
+    const off = client.page.locator(".effect:not([data-on])");
+    expect(await off.count()).toBeGreaterThan(0);
+    expect((await off.locator(".effect-ms").allInnerTexts()).join("")).toBe("");
+    expect(await violations(client)).toEqual([]);
+    await photograph("effects-640", ".effect-times");
+    await client.after(() => client.drag(20, 0));
+    await expect.poll(() => light.locator(".effect-ms").innerText()).toBe("");
   });
 
   it("is asked for only while it is open", async () => {
