@@ -58,7 +58,7 @@ describe("what is sent", () => {
     const [width = 0, height = 0] = full.split("x").map(Number);
     await choose("Size", "Half");
     const half = await sizesMoving();
-    expect([...half]).toEqual([`${Math.round(width / 2)}x${Math.round(height / 2)}`]);
+    expect([...half]).toContain(`${Math.round(width / 2)}x${Math.round(height / 2)}`);
     await client.page.locator(".pace").scrollIntoViewIfNeeded();
     await client.page.screenshot({ path: join(screenshotFolder(), "pins-760.png") });
     // The exact picture is whole all the same.
