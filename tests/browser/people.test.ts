@@ -153,6 +153,36 @@ describe("two in one view", () => {
       .toBe(name);
   });
 
+  it("list a person once who has the view twice on one page, and another page as another person", async () => {
+    const ann = await open();
+    await rename(ann, "Ann");
+    const link = await linkTo(ann, "steer, in turns");
+    const ben = await place.visit({}, `${link}&${link.split("#")[1]}`);
+    for (const view of [0, 1]) {
+      const picture = ben.page.locator('.picture[data-exact="true"]').nth(view);
+      await picture.waitFor({ timeout: 60_000 });
+    }
+    await rename(ben, "Ben");
+    await openShare(ann);
+    const once = [
+      expect.stringMatching(/Ann\s+you, steers/),
+      expect.stringMatching(/Ben\s+may steer/),
+    ];
+    await expect.poll(() => names(ann)).toEqual(once);
+    const note = ben.page.locator(".steer-note");
+    await ben.page.getByRole("button", { name: /^1: / }).click();
+    await note.getByRole("button", { name: "Take control" }).click();
+    await expect
+      .poll(() => names(ann))
+      .toEqual([expect.stringMatching(/Ann\s+you, may/), expect.stringMatching(/Ben\s+steers/)]);
+    await ben.page.getByRole("button", { name: /^2: / }).click();
+    await expect.poll(() => note.innerText()).toMatch(/You steer this view beside this one/);
+    await note.getByRole("button", { name: "Take control" }).click();
+    await note.waitFor({ state: "detached" });
+    await joined(link);
+    await expect.poll(() => names(ann)).toHaveLength(3);
+  });
+
   it("let a watcher look around in a view beside, which follows until it is moved", async () => {
     const ann = await open();
     const ben = await joined(await linkTo(ann, "watch"));
