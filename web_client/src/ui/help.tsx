@@ -24,6 +24,7 @@ const kClipRows: readonly (readonly [keys: string, what: string])[] = [
   ["Drag, arrows", "Move a plane; with Shift in small steps"],
   ["Page Up and Down, Home, End", "Far; to the ends of the data"],
   ["Delete", "Remove the plane"],
+  ["Square, arrows, Page Up and Down", "Move the whole box"],
 ];
 
 const kMapRows: readonly (readonly [keys: string, what: string])[] = [
