@@ -104,6 +104,22 @@ describe("the difference from the reference", () => {
     expect(await violations(client)).toEqual([]);
   });
 
+  it("has a legend that leaves a narrow picture to be seen, and more of it on request", async () => {
+    await client.page.locator(".difference-legend .icon-button").click();
+    await client.after(() => client.page.locator(".sheet-toggle").click());
+    await client.page.getByRole("button", { name: "Show the difference" }).click();
+    await done();
+    const figures = client.page.locator(".difference-figures");
+    expect(await figures.isVisible()).toBe(false);
+    const legend = await client.page.locator(".difference-legend").boundingBox();
+    const picture = await client.page.locator(".picture").boundingBox();
+    expect(legend?.height).toBeLessThan((picture?.height ?? 0) / 3);
+    await client.page.screenshot({ path: join(screenshotFolder(), "difference-390-strip.png") });
+    await client.page.getByText("Scale and figures").click();
+    expect(await figures.isVisible()).toBe(true);
+    expect(await violations(client)).toEqual([]);
+  });
+
   it("is hidden again", async () => {
     await client.page.locator(".difference-legend .icon-button").click();
     await expect.poll(() => client.page.locator(".difference").count()).toBe(0);

@@ -103,7 +103,7 @@ describe("a clip box", () => {
   it("has a handle on each face", async () => {
     const whole = await picture();
     await client.after(() => client.page.getByRole("button", { name: "Clip to a box" }).click());
-    await expect.poll(() => handles().count()).toBe(6);
+    await expect.poll(() => handles().count()).toBe(7); // And one in its middle.
     expect(await picture()).not.toBe(whole);
     const face = handle("Clip plane 6, Z");
     const before = await picture();
@@ -116,6 +116,38 @@ describe("a clip box", () => {
     });
     expect(await picture()).not.toBe(before);
     await client.page.screenshot({ path: join(screenshotFolder(), "handles-1000.png") });
+    expect(await violations(client)).toEqual([]);
+  });
+
+  it("moves as a whole by its middle, by mouse and by keys, as one step each", async () => {
+    const middle = client.page.getByRole("button", { name: /^Clip box, all of it/ });
+    const places = async (): Promise<number[]> =>
+      Promise.all(
+        (await client.page.getByRole("slider", { name: /^Clip plane/ }).all()).map(value),
+      );
+    const before = await places();
+    const shown = await picture();
+    const from = await middleOf(middle);
+    await client.after(async () => {
+      await client.page.mouse.move(from.x, from.y);
+      await client.page.mouse.down();
+      await client.page.mouse.move(from.x + 6, from.y, { steps: 3 });
+      await client.page.mouse.up();
+    });
+    expect(await picture()).not.toBe(shown);
+    const after = await places();
+    const moves = after.map((x, i) => x - (before[i] ?? 0));
+    expect(Math.max(...moves.map(Math.abs))).toBeGreaterThan(0);
+    // Faces of an axis go together: the box keeps its size.
+    for (const i of [0, 2, 4]) expect(moves[i]).toBeCloseTo(moves[i + 1] ?? Number.NaN, 6);
+    await client.after(undo);
+    expect(await places()).toEqual(before);
+    await middle.focus();
+    await client.after(() => client.page.keyboard.press("ArrowDown"));
+    expect(await places()).not.toEqual(before);
+    expect(await middle.evaluate((e) => e === document.activeElement)).toBe(true);
+    await client.after(undo);
+    expect(await picture()).toBe(shown);
     expect(await violations(client)).toEqual([]);
   });
 

@@ -46,12 +46,75 @@ describe("layout", () => {
     await client.close();
   });
 
+  // Between the sheet and the panel, and where a screen has room to spare: looks of one page.
+  it.each([
+    [768, 1024],
+    [2560, 1440],
+  ])("%s pixels fit, and nothing lies over anything else", async (width, height) => {
+    const client = await Client.open(browser, server.url, { viewport: { width, height } });
+    for (const colorScheme of ["light", "dark"] as const) {
+      await client.page.emulateMedia({ colorScheme });
+      expect(await violations(client)).toEqual([]);
+      await client.page.screenshot({
+        path: join(screenshotFolder(), `${width}-${colorScheme}.png`),
+      });
+    }
+    const found = await client.page.evaluate(() => {
+      const { scrollWidth, clientWidth } = document.documentElement;
+      const kinds = ".tools, .badge, .readout, .legend, .axes, .scale-bar, .panel";
+      const parts = [...document.querySelectorAll(kinds)]
+        .map((e) => ({ name: e.className, box: e.getBoundingClientRect() }))
+        .filter(({ box }) => box.width > 0 && box.height > 0);
+      const overlaps = parts.flatMap((a, i) =>
+        parts.slice(i + 1).flatMap((b) => {
+          const apart =
+            a.box.right <= b.box.left ||
+            b.box.right <= a.box.left ||
+            a.box.bottom <= b.box.top ||
+            b.box.bottom <= a.box.top;
+          return apart ? [] : [`${a.name} and ${b.name}`];
+        }),
+      );
+      const body = document.querySelector(".panel-body");
+      const aside = body ? body.scrollWidth - body.clientWidth : -1;
+      return { overflow: scrollWidth - clientWidth, aside, overlaps, parts: parts.length };
+    });
+    expect(found).toMatchObject({ overflow: 0, aside: 0, overlaps: [] });
+    expect(found.parts).toBeGreaterThan(4);
+    await client.close();
+  });
+
   it("has an accessible help and readout", async () => {
     const client = await place.open(kWide);
     await client.page.locator(".readout summary").click();
     await client.page.keyboard.press("Shift+Slash");
     await client.page.waitForSelector("dialog[open]");
     expect(await violations(client)).toEqual([]);
+    await client.page.keyboard.press("Escape");
+    await client.page.waitForSelector("dialog", { state: "detached" });
+    await client.close();
+  });
+
+  it.each(["Escape", "Enter"])("a dialog keeps the focus until %s gives it back", async (key) => {
+    const client = await Client.open(browser, server.url, kWide);
+    const opener = client.page.getByRole("button", { name: "Share", exact: true });
+    await opener.press("Enter");
+    await client.page.waitForSelector("dialog[open]");
+    for (let i = 0; i < 12; i += 1) {
+      // Past the last control the browser's own may have the focus, never the page behind.
+      expect(
+        await client.page.evaluate(
+          () =>
+            document.activeElement === document.body ||
+            document.activeElement?.closest("dialog[open]") !== null,
+        ),
+      ).toBe(true);
+      await client.page.keyboard.press("Tab");
+    }
+    if (key === "Enter") await client.page.getByRole("button", { name: "Close" }).focus();
+    await client.page.keyboard.press(key);
+    await client.page.waitForSelector("dialog", { state: "detached" });
+    expect(await opener.evaluate((e) => e === document.activeElement)).toBe(true);
     await client.close();
   });
 

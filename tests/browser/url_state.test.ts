@@ -171,6 +171,34 @@ describe("a saved scene", () => {
     expect(await picture(other)).not.toBe(before);
   });
 
+  it("brings back how its map was edited, as the address does", async () => {
+    const client = await open();
+    await client.after(() => client.page.getByLabel(/^Smooth opacity/).check());
+    const ground = await client.page.locator(".map-ground").boundingBox();
+    await client.after(() =>
+      client.page.mouse.click((ground?.x ?? 0) + 0.4 * (ground?.width ?? 0), (ground?.y ?? 0) + 8),
+    );
+    await client.after(() => client.page.keyboard.press("ArrowUp"));
+    await client.after(() =>
+      untilAddressed(client, () => client.page.getByLabel(/^Density/).fill("0.5")),
+    );
+    const count = await client.page.locator(".map-point").count();
+    const before = await picture(client);
+    await share(client);
+    const download = client.page.waitForEvent("download");
+    await client.page.getByRole("button", { name: "Save the scene" }).click();
+    const path = join(folder, "edited.json");
+    await (await download).saveAs(path);
+    const other = await open();
+    await other.after(() => load(other, path));
+    for (const one of [other, await open(client.page.url())]) {
+      expect(await picture(one)).toBe(before);
+      expect(await one.page.getByLabel(/^Smooth opacity/).isChecked()).toBe(true);
+      expect(await one.page.getByLabel(/^Density/).inputValue()).toBe("0.5");
+      expect(await one.page.locator(".map-point").count()).toBe(count);
+    }
+  });
+
   it("that is none is refused with the reason, and nothing changes", async () => {
     const client = await open();
     const before = await picture(client);

@@ -115,9 +115,9 @@ export function openPane(page: PanePort, beginning: PaneBeginning): Pane {
         page.opened();
         if (state.orbit.value !== state.home.value) conversation.mark("camera");
       },
-      joined(scene) {
+      joined(scene, edit) {
         thumbnails.lost();
-        adopt(() => joinScene(state, scene));
+        adopt(() => joinScene(state, scene, edit));
         shownOrbit.opened();
       },
       restored(document) {
@@ -306,8 +306,8 @@ export function openPane(page: PanePort, beginning: PaneBeginning): Pane {
     leave: () => conversation.leave(),
     saveScene: () => saveScene(state),
     async loadScene(file) {
-      const scene = await loadedScene(state, file);
-      if (scene) conversation.open(wishForScene(scene));
+      const saved = await loadedScene(state, file);
+      if (saved) conversation.open(wishForScene(saved.scene, saved.edit));
     },
   };
 
