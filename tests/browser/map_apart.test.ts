@@ -104,7 +104,9 @@ describe("a smooth curve of opacities", () => {
       expect(difference(before, await client.pixels()).largest).toBe(0);
     }
     expect(await points("Colour").count()).toBe(colours);
-    await client.page.locator(".map-plot").screenshot({ path: join(screenshotFolder(), "map-smooth.png") });
+    await client.page
+      .locator(".map-plot")
+      .screenshot({ path: join(screenshotFolder(), "map-smooth.png") });
 
     await client.after(() => client.page.keyboard.press("Delete"));
     expect(await points("Opacity").count()).toBe(count + 3);
