@@ -16,7 +16,7 @@ beforeAll(async () => {
 });
 
 const choose = (label: string, option: string): Promise<string[]> =>
-  client.page.getByLabel(label).selectOption({ label: option });
+  client.page.getByRole("combobox", { name: label, exact: true }).selectOption({ label: option });
 
 /** Sizes of the pictures that moving the camera brings, without the last, which is exact. */
 async function sizesMoving(): Promise<Set<string>> {
@@ -65,15 +65,15 @@ describe("what is sent", () => {
     expect(await client.fact("size")).toBe(full);
     const sent = client.lossless && decodePng(client.lossless.payload);
     expect(sent && hashOf(sent)).toBe(hashOf(await client.pixels()));
-    await client.page.getByRole("button", { name: "All as the connection allows" }).click();
+    await client.page.getByRole("button", { name: "All automatic" }).click();
     await choose("Size", "Full");
     expect([...(await sizesMoving())]).toEqual([full]);
   });
 
   it("has a quality of one's own, as the pictures say", async () => {
     await choose("Quality", "30");
-    await choose("Accuracy while moving", "As fast as possible");
-    await choose("Pictures/s at most", "120");
+    await choose("Drawn", "As fast as possible");
+    await choose("Pictures/s", "120");
     const said = client.page.evaluate(
       () =>
         new Promise<string>((resolve) => {

@@ -7,7 +7,7 @@ const place = setUp();
 let client: Client;
 
 beforeAll(async () => {
-  client = await place.open({ viewport: { width: 760, height: 600 } });
+  client = await place.open({ viewport: { width: 760, height: 400 } });
   await client.choose("demo:volume");
 });
 

@@ -12,7 +12,7 @@ const kFree = "free";
 type Free = typeof kFree;
 type Choices<T> = readonly (readonly [value: T | Free, name: string])[];
 
-const kAsAllowed = [kFree, "As the connection allows"] as const;
+const kAsAllowed = [kFree, "Automatic"] as const;
 const kQualities: Choices<number> = [
   kAsAllowed,
   ...[100, 90, 75, 60, 45, 30].map((q) => [q, String(q)] as const),
@@ -26,7 +26,7 @@ const kScales: Choices<number> = [
 ];
 const kAccuracies: Choices<string> = [
   kAsAllowed,
-  ["asked", "As asked for"],
+  ["asked", "As accurate as asked"],
   ["fast", "As fast as possible"],
 ];
 const kRates: Choices<number> = [
@@ -58,13 +58,13 @@ function Choosers({ state }: Props) {
         take={(value) => pin({ scale: free<number>(value) })}
       />
       <SelectLine
-        label="Accuracy while moving"
+        label="Drawn"
         value={accuracy}
         options={kAccuracies}
         take={(value) => pin({ fullAccuracy: value === kFree ? undefined : value === "asked" })}
       />
       <SelectLine
-        label="Pictures/s at most"
+        label="Pictures/s"
         value={framesPerS}
         options={kRates}
         take={(value) => pin({ framesPerS: free<number>(value) })}
@@ -77,7 +77,7 @@ function Choosers({ state }: Props) {
             state.pins.value = {};
           }}
         >
-          All as the connection allows
+          All automatic
         </button>
       )}
     </div>
@@ -112,7 +112,7 @@ export function PaceFacts({ state }: Props) {
       ) : (
         <p class="hint">The server has not said how it sends pictures.</p>
       )}
-      <h3 class="plan-way">Of moving pictures, to me, keep</h3>
+      <h3 class="plan-way">Of moving pictures, keep</h3>
       <Choosers state={state} />
     </div>
   );
