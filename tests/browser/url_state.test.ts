@@ -174,11 +174,13 @@ describe("a saved scene", () => {
   it("brings back how its map was edited, as the address does", async () => {
     const client = await open();
     await client.after(() => client.page.getByLabel(/^Smooth opacity/).check());
+    await client.page.locator(".map-ground").scrollIntoViewIfNeeded();
     const ground = await client.page.locator(".map-ground").boundingBox();
     await client.after(() =>
       client.page.mouse.click((ground?.x ?? 0) + 0.4 * (ground?.width ?? 0), (ground?.y ?? 0) + 8),
     );
-    await client.after(() => client.page.keyboard.press("ArrowUp"));
+    const added = client.page.getByRole("button", { name: /^Opacity point 3 of/ });
+    await client.after(() => added.press("ArrowUp"));
     await client.after(() =>
       untilAddressed(client, () => client.page.getByLabel(/^Density/).fill("0.5")),
     );
