@@ -5,8 +5,8 @@
 #include <netinet/in.h>
 #include <netinet/tcp.h>
 #include <optional>
-#include <sys/socket.h>
 #include <string_view>
+#include <sys/socket.h>
 #include <utility>
 
 #include <spdlog/spdlog.h>
