@@ -20,6 +20,7 @@ const measure = () => client.page.getByRole("button", { name: "Measure", exact: 
 const status = () =>
   client.page.locator('section[aria-labelledby="measure-heading"] [role=status]');
 const kMeasuredMs = 90_000;
+const kHead = "#measure-heading";
 
 async function photograph(name: string, what: string): Promise<void> {
   await client.page.locator(what).scrollIntoViewIfNeeded();
@@ -116,7 +117,7 @@ describe("when nothing happens", () => {
     await stop().waitFor();
     await points().first().waitFor({ timeout: kMeasuredMs });
     expect(await violations(client)).toEqual([]);
-    await photograph("measure-idle-640", ".measure-head");
+    await photograph("measure-idle-640", kHead);
     await client.after(() => client.drag(-20, 15));
     await expect.poll(() => status().textContent()).toMatch(/^Stopped: the view changed/);
     await stop().waitFor();
@@ -126,7 +127,7 @@ describe("when nothing happens", () => {
     await client.page.locator(".dataset").first().scrollIntoViewIfNeeded();
     await measure().waitFor();
     await expect.poll(() => status().textContent()).toMatch(/^Stopped: stopped by the client/);
-    await client.page.locator(".measure-head").scrollIntoViewIfNeeded();
+    await client.page.locator(kHead).scrollIntoViewIfNeeded();
     await stop().click();
     await measure().waitFor();
     await wish().uncheck();
