@@ -102,15 +102,16 @@ describe("a smooth curve of opacities", () => {
     await client.after(() => smooth().check());
     expect(await apart().isChecked()).toBe(true);
     expect(await apart().isDisabled()).toBe(true);
-    await client.after(() => drag("Opacity", 3, 0, -60));
-    await client.after(() => drag("Opacity", 5, 0, 50));
+    await client.page.locator(".map-plot").scrollIntoViewIfNeeded();
+    await client.after(() => drag("Opacity", 2, 0, -60));
+    await client.after(() => drag("Opacity", 3, 0, 50));
     const before = await client.pixels();
     const bent = await picture();
     const count = await points("Opacity").count();
     const colours = await points("Colour").count();
     const ground = await client.page.locator(".map-ground").boundingBox();
     if (!ground) throw new Error("the editor has no ground");
-    for (const [i, x] of [0.23, 0.42, 0.58, 0.75].entries()) {
+    for (const [i, x] of [0.12, 0.4, 0.6, 0.87].entries()) {
       const place = [ground.x + x * ground.width, ground.y + 8] as const;
       await client.after(() => client.page.mouse.click(...place));
       expect(await points("Opacity").count()).toBe(count + i + 1);
@@ -131,6 +132,7 @@ describe("a smooth curve of opacities", () => {
     expect(moved).not.toBe(bent);
     await client.page.reload();
     await client.settled();
+    await client.page.locator(".map-plot").scrollIntoViewIfNeeded();
     expect(await picture()).toBe(moved);
     expect(await points("Opacity").count()).toBe(count + 3);
     await client.after(() => smooth().uncheck());
