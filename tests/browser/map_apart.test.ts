@@ -97,6 +97,7 @@ describe("a map whose colours and opacities are edited apart", () => {
 
 describe("a smooth curve of opacities", () => {
   const smooth = () => client.page.getByRole("checkbox", { name: /^Smooth opacity/ });
+  const chosen = () => points("Opacity").and(client.page.locator('[aria-pressed="true"]'));
 
   it("has points of its own, and one that is added leaves the picture as it is to the bit", async () => {
     await client.after(() => smooth().check());
@@ -115,16 +116,14 @@ describe("a smooth curve of opacities", () => {
       const place = [ground.x + x * ground.width, ground.y + 8] as const;
       await client.after(() => client.page.mouse.click(...place));
       expect(await points("Opacity").count()).toBe(count + i + 1);
-      const added = await points("Opacity")
-        .and(client.page.locator('[aria-pressed="true"]'))
-        .boundingBox();
+      const added = await chosen().boundingBox();
       expect(Math.abs((added?.x ?? 0) + (added?.width ?? 0) / 2 - place[0])).toBeLessThan(6);
       expect(difference(before, await client.pixels()).largest).toBe(0);
     }
     expect(await points("Colour").count()).toBe(colours);
     await client.page.locator(".map-plot").screenshot({ path: screenshotPath("map-smooth") });
 
-    await client.after(() => client.page.keyboard.press("Delete"));
+    await client.after(() => chosen().press("Delete"));
     expect(await points("Opacity").count()).toBe(count + 3);
     expect(await picture()).toBe(bent);
     await client.after(() => drag("Opacity", 4, 0, -15));
