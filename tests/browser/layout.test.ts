@@ -74,6 +74,7 @@ describe("layout", () => {
       const { scrollWidth, clientWidth } = document.documentElement;
       const kinds = ".tools, .badge, .readout, .legend, .axes, .scale-bar, .panel";
       const parts = [...document.querySelectorAll(kinds)]
+        .filter((e, _, all) => !all.some((other) => other !== e && other.contains(e)))
         .map((e) => ({ name: e.className, box: e.getBoundingClientRect() }))
         .filter(({ box }) => box.width > 0 && box.height > 0);
       const overlaps = parts.flatMap((a, i) =>
