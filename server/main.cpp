@@ -7,6 +7,7 @@
 #include "server/commands/load_command.h"
 #include "server/commands/render_command.h"
 #include "server/commands/serve_command.h"
+#include "server/commands/token_command.h"
 
 int main(int argc, char** argv) {  // NOLINT(bugprone-exception-escape): our bugs end in abort()
     CLI::App app{"Volcast: remote volume rendering with stated accuracy", "volcast"};
@@ -18,6 +19,7 @@ int main(int argc, char** argv) {  // NOLINT(bugprone-exception-escape): our bug
     volcast::commands::addAccuracyCommand(app, exitCode);
     volcast::commands::addImportCommand(app, exitCode);
     volcast::commands::addLoadCommand(app, exitCode);
+    volcast::commands::addTokenCommand(app, exitCode);
     volcast::commands::addDoctorCommand(app, exitCode);
     try {
         app.parse(argc, argv);

@@ -90,7 +90,9 @@ std::vector<Finding> findCodecs() {
                             .name = (vp9 ? "VP9 4:4:4, " : "H.264, ") + encoder.name,
                             .ok = encoder.works,
                             .required = false,
-                            .detail = encoder.detail,
+                            .detail = encoder.detail + (encoder.used    ? ", and is used"
+                                                        : encoder.works ? "; one before it is used"
+                                                                        : ""),
                             .cost = encoder.hardware ? "H.264 is encoded on the CPU"
                                     : vp9            ? "slow connections get H.264 or JPEG"
                                                      : "slow connections get VP9 or JPEG"});

@@ -11,11 +11,13 @@
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include "renderer/base/printable.h"
 #include "server/commands/cache_folder.h"
 #include "server/session/thumbnails.h"
 #include "server/session/views.h"
 #include "server/settings.h"
 #include "server/video/video_patches.h"
+#include "server/video/video_stream.h"
 #include "server/workers/gpu_given_up.h"
 #include "server/workers/isolating_service.h"
 
@@ -36,6 +38,21 @@ void startLog(const std::string& level) {
     log->set_level(spdlog::level::from_str(level));
     log->flush_on(spdlog::level::trace);
     spdlog::set_default_logger(std::move(log));
+}
+
+/// Which encoder makes which video, and why not those before it.
+void logVideoEncoders() {
+    std::string others;
+    for (const video::EncoderFinding& encoder : video::videoEncoders()) {
+        if (!encoder.works) others += (others.empty() ? "" : "; ") + encoder.detail;
+        if (!encoder.used) continue;
+        spdlog::info(R"(event=video_encoder encoder={} not_used="{}")", encoder.name,
+                     base::printable(others, 1000));
+        others.clear();
+    }
+    if (!others.empty()) {
+        spdlog::warn(R"(event=video_encoder_missing not_used="{}")", base::printable(others, 1000));
+    }
 }
 
 int complain(const Error& error) {
@@ -72,6 +89,12 @@ Result<std::unique_ptr<session::UploadFolder>> openUploads(const ServeSettings& 
     if (settings.dataFolder.empty()) {
         return fail(ErrorCode::kInvalidArgument, "--allow-uploads needs a DATA_DIR to put them in");
     }
+    if (settings.uploads.needToken && settings.linkKeyFile.empty() &&
+        settings.stateFolder.empty()) {
+        return fail(ErrorCode::kInvalidArgument,
+                    "--uploads-need-token needs the key that tokens are signed with: "
+                    "--link-key-file, or --state-dir");
+    }
     return session::UploadFolder::create(settings.dataFolder, settings.uploads);
 }
 
@@ -100,6 +123,7 @@ int serve(ServeSettings settings) {
     auto catalogue = session::Catalogue::create(std::move(desc), **render);
     if (!catalogue) return complain(catalogue.error());
     (void)video::videoPatches();  // Encoders are tried now, not when the first client waits.
+    logVideoEncoders();
     auto encoders = std::make_unique<session::EncodePool>(settings.encodeThreads);
     auto kept = openState(settings);
     if (!kept) return complain(kept.error());
@@ -223,7 +247,13 @@ void addUploads(CLI::App& command, ServeSettings& settings) {
     session::UploadLimits& limits = settings.uploads;
     CLI::Option* allowed =
         command.add_flag("--allow-uploads", settings.allowUploads,
-                         "Everybody who may connect may upload data into DATA_DIR/uploads");
+                         "Everybody who may connect, also by a link to watch, may upload data into "
+                         "DATA_DIR/uploads; see --uploads-need-token");
+    command
+        .add_flag(
+            "--uploads-need-token", limits.needToken,
+            "Only who brings an access token that `volcast token --role control` made uploads")
+        ->needs(allowed);
     const auto size = [&](const char* name, std::uint64_t& bytes, const char* text) {
         command
             .add_option_function<std::uint64_t>(
@@ -260,9 +290,10 @@ void addUploads(CLI::App& command, ServeSettings& settings) {
 void addState(CLI::App& command, ServeSettings& settings) {
     command.add_option("--state-dir", settings.stateFolder,
                        "Folder that keeps views over a restart; none: they end with the server");
-    command.add_option("--link-key-file", settings.linkKeyFile,
-                       "Key that share links are signed with, made where there is none; none: "
-                       "link.key in --state-dir, else one of this run");
+    command.add_option(
+        "--link-key-file", settings.linkKeyFile,
+        "Key that share links and access tokens are signed with, made where there is none; none: "
+        "link.key in --state-dir, else one of this run");
 }
 
 }  // namespace

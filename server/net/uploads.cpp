@@ -6,12 +6,21 @@
 #include "renderer/base/printable.h"
 #include "server/net/http_answers.h"
 #include "server/net/static_files.h"
+#include "server/session/views.h"
 
 namespace volcast::net {
 
 namespace {
 
 using session::UploadRefusal;
+
+/// Of "Authorization: Bearer TOKEN" (RFC 6750, section 2.1); empty where there is none.
+std::string bearerOf(const Request& request) {
+    constexpr std::string_view kScheme = "bearer ";
+    const std::string_view value = request[http::field::authorization];
+    if (!beast::iequals(value.substr(0, kScheme.size()), kScheme)) return {};
+    return std::string{value.substr(kScheme.size())};
+}
 
 constexpr std::string_view kPath = "/v1/uploads/";
 
@@ -77,6 +86,7 @@ std::optional<Response> UploadAnswers::refusal(const Request& request) const {
                                   "pages of this origin may not upload; the server's "
                                   "--allow-origin lists those that may");
     }
+    if (auto refused = noRight(request)) return refused;
     const auto target = uploadTargetOf(request.target());
     if (!target) {
         return HttpAnswers::plain(request, http::status::bad_request, target.error().message);
@@ -92,6 +102,28 @@ std::optional<Response> UploadAnswers::refusal(const Request& request) const {
         std::string{request.method_string()} + " is not offered here; " + methods + " is");
     response.set(http::field::allow, methods);
     return response;
+}
+
+std::optional<Response> UploadAnswers::noRight(const Request& request) const {
+    if (!folder().limits().needToken) return std::nullopt;
+    const std::string token = bearerOf(request);
+    const auto refuse = [&](http::status status, const std::string& why) {
+        spdlog::warn(R"(event=upload_not_permitted error="{}")", why);
+        Response response = HttpAnswers::plain(request, status, why);
+        if (status == http::status::unauthorized) {
+            response.set(http::field::www_authenticate, "Bearer");
+        }
+        return response;
+    };
+    if (token.empty()) {
+        return refuse(http::status::unauthorized,
+                      "uploads to this server need an access token (Authorization: Bearer TOKEN)");
+    }
+    const auto access = shared_.views.access(token);
+    if (!access) return refuse(http::status::unauthorized, access.error().message);
+    if (access->role == v1::ROLE_CONTROL) return std::nullopt;
+    return refuse(http::status::forbidden,
+                  "the access token allows to watch; uploads need one to control");
 }
 
 Response UploadAnswers::answer(const Request& request) const {

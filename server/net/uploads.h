@@ -48,6 +48,8 @@ public:
     [[nodiscard]] session::UploadFolder& folder() const { return *shared_.uploads; }
 
 private:
+    /// None where the request brings what it needs; else 401 or 403.
+    [[nodiscard]] std::optional<Response> noRight(const Request& request) const;
     [[nodiscard]] Response finish(const Request& request, const UploadTarget& target) const;
 
     session::Shared& shared_;

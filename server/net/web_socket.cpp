@@ -4,7 +4,9 @@
 #include <array>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
+#include <optional>
 #include <sys/socket.h>
+#include <string_view>
 #include <utility>
 
 #include <spdlog/spdlog.h>
@@ -20,6 +22,7 @@ using session::Clock;
 constexpr std::chrono::seconds kHandshake{30};
 constexpr std::chrono::seconds kIdle{60};  ///< Pinged at half of it.
 constexpr std::chrono::seconds kStuckWrite{20};
+constexpr std::chrono::seconds kPingEach{5};
 constexpr std::chrono::seconds kCloseWithin{3};
 const session::Closing kGoingDown{.code = 1012, .reason = "the server is going down"};
 constexpr std::size_t kSlice = std::size_t{64} * 1024;
@@ -48,6 +51,8 @@ private:
     /// Sends one message in slices; false where the connection is over.
     asio::awaitable<bool> write(const session::Outgoing& message);
     asio::awaitable<void> close(session::Closing closing);
+    /// Measures the way itself: round trips of pings, which carry no picture.
+    asio::awaitable<void> pingAll();
     void wake() { wake_.cancel(); }
     /// Closes the socket hard unless `watch_` is cancelled within `limit`.
     void watch(std::chrono::seconds limit);
@@ -57,6 +62,8 @@ private:
     const std::uint64_t number_;
     asio::steady_timer wake_;   ///< The writer sleeps on it; cancelled when there is news.
     asio::steady_timer watch_;  ///< Runs while a write or close is under way.
+    asio::steady_timer nextPing_;
+    std::optional<session::TimePoint> pingedAt_;  ///< Until it is answered.
     std::shared_ptr<session::Session> session_;
     bool over_ = false;
     bool draining_ = false;
@@ -68,7 +75,8 @@ SocketOver<Layer>::SocketOver(Layer stream, session::Shared& shared, std::uint64
       shared_{shared},
       number_{number},
       wake_{socket_.get_executor()},
-      watch_{socket_.get_executor()} {
+      watch_{socket_.get_executor()},
+      nextPing_{socket_.get_executor()} {
     beast::get_lowest_layer(socket_).expires_never();  // The WebSocket has timeouts of its own.
     websocket::stream_base::timeout timeout{};
     timeout.handshake_timeout = kHandshake;
@@ -100,9 +108,12 @@ asio::awaitable<void> SocketOver<Layer>::serve(const Request& request) {
     if (draining_) session_->end(kGoingDown);
     asio::co_spawn(
         socket_.get_executor(), [self]() { return self->writeAll(); }, asio::detached);
+    asio::co_spawn(
+        socket_.get_executor(), [self]() { return self->pingAll(); }, asio::detached);
     co_await readAll();
     over_ = true;
     wake();
+    nextPing_.cancel();
     session_.reset();
     spdlog::info("event=disconnected connection={}", number_);
 }
@@ -124,6 +135,31 @@ asio::awaitable<void> SocketOver<Layer>::readAll() {
                           Clock::now());
         buffer.consume(buffer.size());
         wake();
+    }
+}
+
+template <class Layer>
+asio::awaitable<void> SocketOver<Layer>::pingAll() {
+    const auto self = this->shared_from_this();
+    // Beast's own pings, on quiet connections, are empty; so are their pongs.
+    constexpr std::string_view kPath = "path";
+    const websocket::ping_data ping{kPath.data()};
+    socket_.control_callback([this, kPath](websocket::frame_type type, std::string_view data) {
+        if (type != websocket::frame_type::pong || data != kPath || !pingedAt_) return;
+        const auto now = Clock::now();
+        const auto took = now - *std::exchange(pingedAt_, std::nullopt);
+        if (session_) {
+            session_->ponged(std::chrono::duration_cast<std::chrono::microseconds>(took), now);
+        }
+    });
+    while (!over_) {
+        if (!pingedAt_) {
+            pingedAt_ = Clock::now();
+            const auto [error] = co_await socket_.async_ping(ping, kAsTuple);
+            if (error || over_) break;
+        }
+        nextPing_.expires_after(kPingEach);
+        (void)co_await nextPing_.async_wait(kAsTuple);
     }
 }
 

@@ -46,6 +46,7 @@ bool FrameFlow::acked(const FrameAck& ack, TimePoint now) {
         heardAt_ = now;
     }
     if (!sent) return false;
+    path_ = ack.path;
     const auto elapsed = std::chrono::duration_cast<microseconds>(now - sent->at);
     shownAt_ = now - std::min(ack.hold, elapsed);
     measure(std::max(elapsed - ack.hold, microseconds{0}), now);
@@ -70,6 +71,11 @@ void FrameFlow::measure(microseconds roundTrip, TimePoint now) {
 
 microseconds FrameFlow::shortestRoundTrip() const {
     return shortest_.best().value_or(microseconds{0});
+}
+
+microseconds FrameFlow::transferDelay() const {
+    if (path_.count() == 0) return microseconds{0};
+    return std::max(shortestRoundTrip() - path_, microseconds{0});
 }
 
 std::optional<std::size_t> FrameFlow::byteCap() const {

@@ -19,6 +19,7 @@ struct FrameAck {
     std::chrono::microseconds hold{0};  ///< Received -> shown.
     std::uint32_t queued = 0;           ///< Frames waiting in the client.
     bool keyframe = false;              ///< It could not decode its video: a keyframe is needed.
+    std::chrono::microseconds path{0};  ///< Shortest round trip of a ping lately; 0: none came.
 };
 
 /// What acks tell about the way to a client and back, and so how much may be under way.
@@ -66,6 +67,9 @@ public:
     [[nodiscard]] std::chrono::microseconds shortestRoundTrip() const;
     /// Smoothed excess of round trips over the shortest.
     [[nodiscard]] std::chrono::microseconds queueDelay() const noexcept { return queueDelay_; }
+    /// What even the quickest of the latest frames took longer than a ping: its bytes' own time on
+    /// a thin way. 0 where no ping was answered.
+    [[nodiscard]] std::chrono::microseconds transferDelay() const;
     /// Most that the client was seen to take lately; 0 before the first ack.
     [[nodiscard]] double bytesPerS() const { return bytesPerS_.best().value_or(0.0); }
     [[nodiscard]] double framesPerS() const { return framesPerS_.best().value_or(0.0); }
@@ -94,7 +98,7 @@ private:
     TimePoint heardAt_{};
     TimePoint slowUntil_{};
     Silence silence_ = Silence::kNone;
-    std::chrono::microseconds roundTrip_{0}, queueDelay_{0};
+    std::chrono::microseconds roundTrip_{0}, queueDelay_{0}, path_{0};
     bool measured_ = false;
     Windowed<std::chrono::microseconds, std::less<>> shortest_{kMinimumWindow};
     Windowed<double, std::greater<>> bytesPerS_{kRateWindow}, framesPerS_{kRateWindow};

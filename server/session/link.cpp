@@ -61,9 +61,58 @@ std::uint64_t numberOf(const std::string& bytes) {
     return number;
 }
 
-std::string signatureOf(const std::string& body, const LinkKey& key) {
-    const auto signature = key.sign("link", body);
+/// What a signed text says; `rest` is up to its kind.
+struct Signed {
+    v1::Role role = v1::ROLE_UNSPECIFIED;
+    std::chrono::system_clock::time_point expires{};
+    std::string rest;
+};
+
+/// Texts of one purpose do not pass as those of another; messages name it by `what`.
+struct Kind {
+    const char* purpose;
+    const char* what;
+};
+constexpr Kind kLink{"link", "link"};
+constexpr Kind kAccess{"access", "access token"};
+
+std::string signatureOf(const Kind& kind, const std::string& body, const LinkKey& key) {
+    const auto signature = key.sign(kind.purpose, body);
     return {reinterpret_cast<const char*>(signature.data()), signature.size()};
+}
+
+Result<std::string> seal(const Kind& kind, const Signed& what, const LinkKey& key) {
+    const auto nonce = randomBytes(kNonceBytes);
+    if (!nonce) return nonce.error();
+    const auto expires =
+        std::chrono::duration_cast<std::chrono::seconds>(what.expires.time_since_epoch());
+    const std::string body = std::string{kVersion, static_cast<char>(what.role)} +
+                             bytesOf(static_cast<std::uint64_t>(expires.count())) + *nonce +
+                             what.rest;
+    return base64Url(body + signatureOf(kind, body, key));
+}
+
+Result<Signed> unseal(const Kind& kind, const std::string& text, const LinkKey& key,
+                      std::chrono::system_clock::time_point now) {
+    const std::string name = std::string{"the "} + kind.what;
+    const Error forged = fail(ErrorCode::kInvalidArgument,
+                              name + " was not made by this server, or was changed on its way");
+    if (text.size() > kMostText) return forged;
+    const std::string bytes = fromBase64Url(text);
+    // One spelling of each: bits that no byte comes of could be changed otherwise.
+    if (bytes.size() < kHeadBytes + kSignatureBytes || base64Url(bytes) != text) return forged;
+    const std::string body = bytes.substr(0, bytes.size() - kSignatureBytes);
+    const std::string expected = signatureOf(kind, body, key);
+    if (CRYPTO_memcmp(expected.data(), bytes.data() + body.size(), kSignatureBytes) != 0) {
+        return forged;
+    }
+    if (body[0] != kVersion || !v1::Role_IsValid(body[1])) return forged;
+    const std::chrono::seconds expires{numberOf(body.substr(2, 8))};
+    Signed read{.role = static_cast<v1::Role>(body[1]),
+                .expires = std::chrono::system_clock::time_point{expires},
+                .rest = body.substr(kHeadBytes)};
+    if (now >= read.expires) return fail(ErrorCode::kInvalidArgument, name + " has expired");
+    return read;
 }
 
 Error systemError(const std::string& path, const std::string& what) {
@@ -155,37 +204,25 @@ Result<std::string> randomName(std::size_t bytes) {
 }
 
 Result<std::string> signLink(const Link& link, const LinkKey& key) {
-    const auto nonce = randomBytes(kNonceBytes);
-    if (!nonce) return nonce.error();
-    const auto expires =
-        std::chrono::duration_cast<std::chrono::seconds>(link.expires.time_since_epoch());
-    const std::string body = std::string{kVersion, static_cast<char>(link.role)} +
-                             bytesOf(static_cast<std::uint64_t>(expires.count())) + *nonce +
-                             link.view;
-    return base64Url(body + signatureOf(body, key));
+    return seal(kLink, {.role = link.role, .expires = link.expires, .rest = link.view}, key);
 }
 
 Result<Link> readLink(const std::string& text, const LinkKey& key,
                       std::chrono::system_clock::time_point now) {
-    const Error forged = fail(ErrorCode::kInvalidArgument,
-                              "the link was not made by this server, or "
-                              "was changed on its way");
-    if (text.size() > kMostText) return forged;
-    const std::string bytes = fromBase64Url(text);
-    // One spelling of each link: bits that no byte comes of could be changed otherwise.
-    if (bytes.size() <= kHeadBytes + kSignatureBytes || base64Url(bytes) != text) return forged;
-    const std::string body = bytes.substr(0, bytes.size() - kSignatureBytes);
-    const std::string expected = signatureOf(body, key);
-    if (CRYPTO_memcmp(expected.data(), bytes.data() + body.size(), kSignatureBytes) != 0) {
-        return forged;
-    }
-    if (body[0] != kVersion || !v1::Role_IsValid(body[1])) return forged;
-    const std::chrono::seconds expires{numberOf(body.substr(2, 8))};
-    const Link link{.view = body.substr(kHeadBytes),
-                    .role = static_cast<v1::Role>(body[1]),
-                    .expires = std::chrono::system_clock::time_point{expires}};
-    if (now >= link.expires) return fail(ErrorCode::kInvalidArgument, "the link has expired");
-    return link;
+    auto read = unseal(kLink, text, key, now);
+    if (!read) return read.error();
+    return Link{.view = std::move(read->rest), .role = read->role, .expires = read->expires};
+}
+
+Result<std::string> signAccess(const Access& access, const LinkKey& key) {
+    return seal(kAccess, {.role = access.role, .expires = access.expires, .rest = {}}, key);
+}
+
+Result<Access> readAccess(const std::string& text, const LinkKey& key,
+                          std::chrono::system_clock::time_point now) {
+    const auto read = unseal(kAccess, text, key, now);
+    if (!read) return read.error();
+    return Access{.role = read->role, .expires = read->expires};
 }
 
 }  // namespace volcast::session

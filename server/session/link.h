@@ -12,7 +12,7 @@
 
 namespace volcast::session {
 
-/// The secret that links and saved resume tokens are signed with.
+/// The secret that links, access tokens and saved resume tokens are signed with.
 class LinkKey {
 public:
     static constexpr std::size_t kBytes = 32;
@@ -48,6 +48,20 @@ Result<std::string> signLink(const Link& link, const LinkKey& key);
 /// at `now`.
 Result<Link> readLink(const std::string& text, const LinkKey& key,
                       std::chrono::system_clock::time_point now);
+
+/// What an access token says of who brings it, until a time. ROLE_CONTROL: may change what the
+/// server holds, as by uploads; ROLE_WATCH: may look at it.
+struct Access {
+    v1::Role role = v1::ROLE_WATCH;
+    std::chrono::system_clock::time_point expires{};  ///< Whole seconds.
+};
+
+/// `access` with a nonce, signed; base64url. No link passes as one, nor the other way round.
+Result<std::string> signAccess(const Access& access, const LinkKey& key);
+
+/// Errors: as readLink().
+Result<Access> readAccess(const std::string& text, const LinkKey& key,
+                          std::chrono::system_clock::time_point now);
 
 /// So many random bytes, base64url. Errors: kIo.
 Result<std::string> randomName(std::size_t bytes);

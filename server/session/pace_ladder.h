@@ -39,6 +39,14 @@ public:
     /// One step; what it changed, such as "quality 90 to 75". Empty at the end of the ladder.
     std::string down();
     std::string up();
+    /// The next step down makes pictures of fewer bytes, not fewer or less accurate ones.
+    [[nodiscard]] bool downShrinks() const {
+        return taken_ < steps_.size() && steps_[taken_].kind < Kind::kAccuracy;
+    }
+    /// The step that up() gives back made pictures of fewer bytes.
+    [[nodiscard]] bool upGrows() const {
+        return taken_ > 0 && steps_[taken_ - 1].kind < Kind::kAccuracy;
+    }
 
     [[nodiscard]] PaceLevel level() const { return levelAt(taken_); }
     [[nodiscard]] PaceLevel best() const { return levelAt(0); }

@@ -11,6 +11,12 @@ std::string ms(std::chrono::microseconds value) {
            " ms";
 }
 
+/// The further off, the more at once: the way there is a second a step.
+int stepsFor(std::chrono::microseconds delay) {
+    if (delay > 4 * Pacing::kDownOver) return 3;
+    return delay > 2 * Pacing::kDownOver ? 2 : 1;
+}
+
 }  // namespace
 
 void Pacing::sent(std::uint32_t sequence, std::size_t bytes, TimePoint now) {
@@ -25,23 +31,31 @@ void Pacing::acked(const FrameAck& ack, TimePoint now) {
         calm_ = kBetweenSteps;
     }
     if (ack.sequence <= sentBeforeStep_) return;
-    const auto delay = flow_.queueDelay();
-    if (delay >= kUpUnder || ack.queued > 0) calmSince_.reset();
-    if (delay < kUpUnder && ack.queued == 0 && !calmSince_) calmSince_ = now;
+    const auto transfer = flow_.transferDelay();
+    // Fewer frames a second of the same bytes would be as long on their way.
+    const auto shrinks = ladder_.downShrinks() ? transfer : std::chrono::microseconds{0};
+    const auto delay = flow_.queueDelay() + shrinks;
+    const bool calm = flow_.queueDelay() < kUpUnder && ack.queued == 0 &&
+                      (transfer < kUpTransfer || !ladder_.upGrows());
+    if (!calm) calmSince_.reset();
+    if (calm && !calmSince_) calmSince_ = now;
     if (steppedAt_ && now - *steppedAt_ < kBetweenSteps) return;
     if (ack.queued > 2) {
-        stepDown(std::to_string(ack.queued) + " frames wait in the client", now);
+        stepDown(1, std::to_string(ack.queued) + " frames wait in the client", now);
     } else if (delay > kDownOver) {
-        stepDown("queueing delay " + ms(delay) + " is over " + ms(kDownOver), now);
+        const char* what = shrinks.count() > 0 ? "transfer and queueing delay " : "queueing delay ";
+        stepDown(stepsFor(delay), what + ms(delay) + " is over " + ms(kDownOver), now);
     } else if (calmSince_ && now - *calmSince_ >= calm_) {
         stepUp(now);
     }
 }
 
-void Pacing::stepDown(const std::string& why, TimePoint now) {
-    const std::string change = ladder_.down();
+void Pacing::stepDown(int steps, const std::string& why, TimePoint now) {
+    std::string change = ladder_.down();
     if (change.empty()) return;
-    if (raisedAt_) {  // It was not right: the next try comes later.
+    if (!raisedAt_) {  // A try that was not right is taken back, and no more.
+        for (; steps > 1 && ladder_.downShrinks(); --steps) change += ", " + ladder_.down();
+    } else {  // The next try comes later.
         calm_ = std::min(calm_ * 2, kLongestCalm);
         raisedAt_.reset();
     }

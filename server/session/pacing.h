@@ -20,14 +20,18 @@ struct PaceReport {
 
 /// Decides how many frames of a view are under way to one client, and how they are made.
 ///
-/// Queueing delay over 50 ms, or more than two frames waiting in the client: one step down the
-/// PaceLadder. Under 15 ms for a second, or longer where the last steps up had to be taken back:
-/// one step up. At least a second lies between steps, and what was sent before a step does not
-/// count towards the next. Has no clock and no socket.
+/// Transfer and queueing delay over 50 ms together, or more than two frames waiting in the client:
+/// a step down the PaceLadder, two over 100 ms and three over 200 ms; transfer counts only as long
+/// as steps make pictures of fewer bytes. Queueing delay under 15 ms, and transfer under 33 ms
+/// where pictures would get larger, for a second, or longer where the last steps up had to be taken
+/// back: one step up. At least a second lies between steps, and what was sent before a step does
+/// not count towards the next. Has no clock and no socket.
 class Pacing {
 public:
     static constexpr std::chrono::milliseconds kDownOver{50};
     static constexpr std::chrono::milliseconds kUpUnder{15};
+    /// Of transfer: a step up that makes half as many bytes more stays below kDownOver.
+    static constexpr std::chrono::milliseconds kUpTransfer{33};
     static constexpr std::chrono::milliseconds kBetweenSteps{1000};
     static constexpr std::chrono::milliseconds kLongestCalm{32'000};
     /// A step up that holds for so long was right.
@@ -56,7 +60,7 @@ public:
     [[nodiscard]] PaceReport report(TimePoint now) const;
 
 private:
-    void stepDown(const std::string& why, TimePoint now);
+    void stepDown(int steps, const std::string& why, TimePoint now);
     void stepUp(TimePoint now);
     void stepped(TimePoint now);
 

@@ -128,6 +128,7 @@ void Session::hello(const v1::Hello& message) {
         return end({kPolicyViolation, "no codec in common"});
     }
     if (!identify(message)) return;
+    takeAccess(message.access());
     greeted_ = true;
     spdlog::info(R"(event=hello connection={} client="{}" form={} person={} resumed={})", number_,
                  base::printable(message.client(), 80), form_ == Form::kJson ? "json" : "binary",
@@ -165,6 +166,18 @@ bool Session::identify(const v1::Hello& message) {
     return true;
 }
 
+void Session::takeAccess(const std::string& token) {
+    if (shared_.uploads == nullptr) return;
+    mayUpload_ = !shared_.uploads->limits().needToken;
+    if (mayUpload_ || token.empty()) return;
+    const auto access = shared_.views.access(token);
+    if (access) {
+        mayUpload_ = access->role == v1::ROLE_CONTROL;
+        return;
+    }
+    send(errorMessage(v1::ERROR_CODE_NOT_PERMITTED, access.error().message, {}, "hello.access"));
+}
+
 void Session::welcome() {
     v1::ServerMessage message;
     v1::Welcome& welcome = *message.mutable_welcome();
@@ -187,7 +200,7 @@ void Session::welcome() {
     limits.set_max_layers(scene::Scene::kMaxLayers);
     limits.set_max_control_points(data::TransferFunction::kMaxPoints);
     limits.set_max_message_bytes(shared_.limits.maxMessageBytes);
-    if (shared_.uploads != nullptr) {
+    if (mayUpload_) {
         welcome.mutable_uploads()->set_max_bytes(shared_.uploads->limits().maxBytes);
         welcome.mutable_uploads()->set_max_files(shared_.uploads->limits().maxFiles);
     }

@@ -59,6 +59,8 @@ public:
     void receive(std::span<const std::byte> message, Form form, TimePoint now);
     /// The next message to send; control messages before frames.
     std::optional<Outgoing> next(TimePoint now);
+    /// A ping was answered after so long.
+    void ponged(std::chrono::microseconds roundTrip, TimePoint now) { path_.see(roundTrip, now); }
     void tick(TimePoint now);
     [[nodiscard]] std::optional<TimePoint> deadline(TimePoint now) const;
     /// Set when the connection is to be closed.
@@ -78,6 +80,8 @@ private:
     void hello(const v1::Hello& message);
     /// False where the connection ends.
     bool identify(const v1::Hello& message);
+    /// Where a token is asked for: what it allows; the client is told where it is none.
+    void takeAccess(const std::string& token);
     void welcome();
     void comeBack(const std::map<std::uint32_t, std::string>& views);
     void openDataset(const v1::OpenDataset& message);
@@ -128,6 +132,7 @@ private:
     std::uint64_t subscription_ = 0;
     bool greeted_ = false;
     PersonBook::Arrival who_;  ///< Once greeted.
+    bool mayUpload_ = false;
     bool resumed_ = false;
     Form form_ = Form::kBinary;
     ClientCodecs codecs_;
@@ -138,6 +143,8 @@ private:
     std::deque<v1::ServerMessage> waiting_;
     std::optional<Closing> closing_;
     MessageRate rate_;
+    static constexpr std::chrono::milliseconds kPathWindow{30'000};
+    Windowed<std::chrono::microseconds, std::less<>> path_{kPathWindow};  ///< Of pings.
 };
 
 }  // namespace volcast::session

@@ -100,7 +100,8 @@ void Session::ack(const v1::Ack& message, TimePoint now) {
                          {.sequence = message.sequence(),
                           .hold = std::chrono::microseconds{message.hold_us()},
                           .queued = message.queue(),
-                          .keyframe = message.keyframe()},
+                          .keyframe = message.keyframe(),
+                          .path = path_.best().value_or(std::chrono::microseconds{0})},
                          now);
     shared_.metrics.frameAcked(roundTrip.count());
 }

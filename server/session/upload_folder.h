@@ -17,6 +17,7 @@
 namespace volcast::session {
 
 struct UploadLimits {
+    bool needToken = false;  ///< Only who brings an access token of ROLE_CONTROL uploads.
     std::uint64_t maxBytes = std::uint64_t{1} << 30;        ///< Of one upload, all its files.
     std::uint64_t maxTotalBytes = std::uint64_t{10} << 30;  ///< Of all uploads that are there.
     std::uint32_t maxFiles = 4096;                          ///< Of one upload.

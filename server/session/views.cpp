@@ -88,6 +88,10 @@ Result<Link> Views::link(const std::string& text) const {
     return readLink(text, desc_.key, std::chrono::system_clock::now());
 }
 
+Result<Access> Views::access(const std::string& token) const {
+    return readAccess(token, desc_.key, std::chrono::system_clock::now());
+}
+
 std::shared_ptr<SharedView> Views::find(const std::string& id) {
     const std::lock_guard lock{mutex_};
     sweep(Clock::now());

@@ -42,6 +42,8 @@ public:
     std::shared_ptr<SharedView> find(const std::string& id);
     /// Errors: as readLink().
     [[nodiscard]] Result<Link> link(const std::string& text) const;
+    /// What an access token allows. Errors: as readAccess().
+    [[nodiscard]] Result<Access> access(const std::string& token) const;
     /// Somebody left: ends the view where it is for nobody any more.
     void left(const std::shared_ptr<SharedView>& view);
     /// Ends the views that nobody has been in for `keep`; to be called now and then.

@@ -9,6 +9,8 @@ extern "C" {
 #include <libavutil/opt.h>
 }
 
+#include "server/video/hardware_frames.h"
+
 namespace volcast::video {
 
 namespace {
@@ -54,6 +56,13 @@ Result<ContextPtr> openEncoder(const EncoderRow& row, glm::ivec2 size, int quali
     context->color_trc = AVCOL_TRC_IEC61966_2_1;
     context->color_range = AVCOL_RANGE_JPEG;  // Full: see yuv.h.
     context->chroma_sample_location = AVCHROMA_LOC_CENTER;
+    if (row.format == AV_PIX_FMT_VAAPI) {
+        const auto device = openVaapi();
+        if (!device) return fail(ErrorCode::kUnsupported, name + ": " + device.error().message);
+        if (const auto used = useFramesOf(**device, *context); !used) {
+            return fail(ErrorCode::kUnsupported, name + ": " + used.error().message);
+        }
+    }
     AVDictionary* options = nullptr;
     for (const EncoderRow::Option& option : row.options) {
         if (option.name != nullptr) av_dict_set(&options, option.name, option.value, 0);

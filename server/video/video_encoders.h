@@ -25,14 +25,14 @@ struct EncoderRow {
     VideoCodec codec;
     const char* name;
     bool hardware;
-    AVPixelFormat format;
+    AVPixelFormat format;   ///< Of the pictures it takes; VAAPI: in its own memory, from YUV420P.
     const char* quantiser;  ///< The option that takes a constant quality.
     double best, worst;     ///< Its values for quality 100 and 0.
     std::array<Option, 8> options;
 };
 
 /// In order of preference, for each codec. Hardware comes first where it is there.
-inline constexpr std::array<EncoderRow, 3> kEncoderRows{
+inline constexpr std::array<EncoderRow, 4> kEncoderRows{
     EncoderRow{VideoCodec::kVp9,
                "libvpx-vp9",
                false,
@@ -57,6 +57,14 @@ inline constexpr std::array<EncoderRow, 3> kEncoderRows{
                  {"delay", "0"},
                  {"forced-idr", "1"},
                  {"profile", "baseline"}}}},
+    EncoderRow{VideoCodec::kH264,
+               "h264_vaapi",
+               true,
+               AV_PIX_FMT_VAAPI,
+               "qp",
+               14,
+               51,
+               {{{"rc_mode", "CQP"}, {"async_depth", "1"}, {"profile", "constrained_baseline"}}}},
     EncoderRow{VideoCodec::kH264,
                "libx264",
                false,

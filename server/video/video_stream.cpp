@@ -2,11 +2,8 @@
 
 #include <algorithm>
 
-extern "C" {
-#include <libavutil/frame.h>
-}
-
 #include "server/video/colour_patch.h"
+#include "server/video/hardware_frames.h"
 #include "server/video/image_check.h"
 #include "server/video/video_encoders.h"
 #include "server/video/yuv.h"
@@ -15,15 +12,12 @@ namespace volcast::video {
 
 namespace {
 
-struct FrameDeleter {
-    void operator()(AVFrame* frame) const noexcept { av_frame_free(&frame); }
-};
 struct PacketDeleter {
     void operator()(AVPacket* packet) const noexcept { av_packet_free(&packet); }
 };
 
 bool isSubsampled(const EncoderRow& row) {
-    return row.format == AV_PIX_FMT_YUV420P;
+    return row.format != AV_PIX_FMT_YUV444P;
 }
 
 /// Sides as the encoder takes them.
@@ -42,7 +36,7 @@ struct VideoStream::Encoder {
     glm::ivec2 size{0};
     int quality = 0;
     ContextPtr context;
-    std::unique_ptr<AVFrame, FrameDeleter> frame;
+    FramePtr frame;  ///< In the CPU's memory.
     std::unique_ptr<AVPacket, PacketDeleter> packet;
 
     static Result<std::unique_ptr<Encoder>> open(const EncoderRow& row, glm::ivec2 size,
@@ -64,7 +58,7 @@ Result<std::unique_ptr<VideoStream::Encoder>> VideoStream::Encoder::open(const E
     made->packet.reset(av_packet_alloc());
     if (!made->frame || !made->packet) return failAs(row, "no memory");
     AVFrame& frame = *made->frame;
-    frame.format = row.format;
+    frame.format = isSubsampled(row) ? AV_PIX_FMT_YUV420P : AV_PIX_FMT_YUV444P;
     frame.width = made->context->width;
     frame.height = made->context->height;
     frame.colorspace = made->context->colorspace;
@@ -97,7 +91,15 @@ Result<void> VideoStream::Encoder::fill(const EncoderRow& row, const ImageView& 
 }
 
 Result<VideoPicture> VideoStream::Encoder::run(const EncoderRow& row) {
-    if (const int sent = avcodec_send_frame(context.get(), frame.get()); sent < 0) {
+    AVFrame* given = frame.get();
+    FramePtr onDevice;
+    if (context->hw_frames_ctx != nullptr) {
+        auto moved = uploaded(*context, *frame);
+        if (!moved) return failAs(row, moved.error().message);
+        onDevice = std::move(*moved);
+        given = onDevice.get();
+    }
+    if (const int sent = avcodec_send_frame(context.get(), given); sent < 0) {
         return failAs(row, avError(sent));
     }
     if (const int got = avcodec_receive_packet(context.get(), packet.get()); got < 0) {
@@ -115,11 +117,11 @@ VideoStream::VideoStream(std::size_t row) : row_{row} {}
 VideoStream::~VideoStream() = default;
 
 Result<std::unique_ptr<VideoStream>> VideoStream::create(VideoCodec codec) {
-    static const std::vector<EncoderFinding> findings = findVideoEncoders();
+    const std::vector<EncoderFinding>& findings = videoEncoders();
     std::string tried;
     for (std::size_t row = 0; row < findings.size(); ++row) {
         if (findings[row].codec != codec) continue;
-        if (findings[row].works) return std::unique_ptr<VideoStream>{new VideoStream{row}};
+        if (findings[row].used) return std::unique_ptr<VideoStream>{new VideoStream{row}};
         tried += (tried.empty() ? "" : "; ") + findings[row].detail;
     }
     return fail(ErrorCode::kUnsupported, tried);
@@ -150,6 +152,11 @@ std::string VideoStream::encoder() const {
     return kEncoderRows[row_].name;
 }
 
+const std::vector<EncoderFinding>& videoEncoders() {
+    static const std::vector<EncoderFinding> findings = findVideoEncoders();
+    return findings;
+}
+
 std::vector<EncoderFinding> findVideoEncoders() {
     constexpr int kQuality = 90;
     std::vector<EncoderFinding> findings;
@@ -164,6 +171,9 @@ std::vector<EncoderFinding> findVideoEncoders() {
             if (const auto picture = (*opened)->run(row); !picture) ran = picture.error();
         }
         finding.works = ran.has_value();
+        finding.used = finding.works && std::ranges::none_of(findings, [&row](const auto& before) {
+                           return before.codec == row.codec && before.used;
+                       });
         finding.detail = ran ? "encodes" : ran.error().message;
         findings.push_back(std::move(finding));
     }

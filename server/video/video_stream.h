@@ -24,6 +24,7 @@ struct EncoderFinding {
     std::string name;
     bool hardware = false;
     bool works = false;
+    bool used = false;   ///< The first of its codec that works.
     std::string detail;  ///< Why it does not.
 };
 
@@ -60,6 +61,9 @@ private:
     std::size_t row_;  ///< Of the table of encoders.
     std::unique_ptr<Encoder> open_;
 };
+
+/// What findVideoEncoders() found when it was first asked for in this process; streams go by it.
+const std::vector<EncoderFinding>& videoEncoders();
 
 /// Tries each encoder, in the order in which they are preferred, on a small picture.
 std::vector<EncoderFinding> findVideoEncoders();

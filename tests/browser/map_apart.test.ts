@@ -1,36 +1,19 @@
-import { mkdirSync } from "node:fs";
 import { join } from "node:path";
-import type { Browser } from "playwright-core";
-import { afterAll, beforeAll, describe, expect, it } from "vitest";
-import { Client, launch } from "./support/client";
+import { beforeAll, describe, expect, it } from "vitest";
+import type { Client } from "./support/client";
 import { difference, hashOf } from "./support/pixels";
-import { Server, screenshotFolder } from "./support/server";
+import { screenshotFolder } from "./support/server";
+import { setUp } from "./support/set_up";
 
-let server: Server;
-let browser: Browser;
+const place = setUp();
 let client: Client;
 
 beforeAll(async () => {
-  server = await Server.start();
-  browser = await launch();
-  client = await Client.open(browser, server.url, { viewport: { width: 1000, height: 900 } });
-  const row = client.page.locator('.dataset[data-dataset="demo:volume"]');
-  if ((await row.getAttribute("data-shown")) === null) {
-    await client.after(() => row.locator(".dataset-choose").click());
-  }
+  client = await place.open({ viewport: { width: 760, height: 900 } });
+  await client.choose("demo:volume");
   const volume = client.page.getByRole("radio", { name: /^Volume/ });
   if (!(await volume.isChecked())) await client.after(() => volume.check({ force: true }));
 });
-
-afterAll(async () => {
-  await browser?.close();
-  await server?.stop();
-});
-
-function screenshotPath(name: string): string {
-  mkdirSync(screenshotFolder(), { recursive: true });
-  return join(screenshotFolder(), `${name}.png`);
-}
 
 const picture = async (): Promise<string> => hashOf(await client.pixels());
 const points = (kind: "Colour" | "Opacity") =>
@@ -61,10 +44,10 @@ describe("a map whose colours and opacities are edited apart", () => {
     const add = (y: number) =>
       client.after(() => client.page.mouse.dblclick(ground.x + 0.37 * ground.width, ground.y + y));
     await add(ground.height - 6);
-    expect(await points("Colour").count()).toBe(colours + 1);
-    expect(await points("Opacity").count()).toBe(opacities);
+    await expect.poll(() => points("Colour").count()).toBe(colours + 1);
+    await expect.poll(() => points("Opacity").count()).toBe(opacities);
     await add(6);
-    expect(await points("Opacity").count()).toBe(opacities + 1);
+    await expect.poll(() => points("Opacity").count()).toBe(opacities + 1);
     expect(difference(before, await client.pixels()).largest).toBeLessThanOrEqual(1);
 
     const seen = new Set([await picture()]);
@@ -86,10 +69,10 @@ describe("a map whose colours and opacities are edited apart", () => {
     const colours = await points("Colour").count();
     await client.page.reload();
     await client.settled();
-    expect(await points("Colour").count()).toBe(colours);
+    await expect.poll(() => points("Colour").count()).toBe(colours);
     expect(await picture()).toBe(before);
     await client.after(() => apart().uncheck());
-    expect(await points("Colour").count()).toBe(0);
+    await expect.poll(() => points("Colour").count()).toBe(0);
     expect(await picture()).toBe(before);
     expect(client.complaints).toEqual([]);
   });
@@ -121,7 +104,9 @@ describe("a smooth curve of opacities", () => {
       expect(difference(before, await client.pixels()).largest).toBe(0);
     }
     expect(await points("Colour").count()).toBe(colours);
-    await client.page.locator(".map-plot").screenshot({ path: screenshotPath("map-smooth") });
+    await client.page
+      .locator(".map-plot")
+      .screenshot({ path: join(screenshotFolder(), "map-smooth.png") });
 
     await client.after(() => chosen().press("Delete"));
     expect(await points("Opacity").count()).toBe(count + 3);

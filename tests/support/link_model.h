@@ -67,12 +67,23 @@ inline LinkRun runLink(const Link& link, Control control, double seconds, double
     pacing.allowVideo(video);
     std::mt19937 random{1};
     std::deque<Flying> there, back;
+    // Pings go out each 5 s, behind what is on the wire, and weigh nothing.
+    std::deque<std::pair<double, double>> pongs;  // When, and after how long.
+    double path = 0;
     double drawnUntil = -1, beganAt = 0, wireFreeAt = 0, lastArrival = 0;
     session::PaceLevel drawing;
     std::uint32_t sequence = 0;
     std::string lastReason;
     for (int tick = 0; tick < static_cast<int>(seconds * 1000); ++tick) {
         const double now = tick * 1e-3;
+        if (tick % 5000 == 0) {
+            const double took = std::max(wireFreeAt - now, 0.0) + link.roundTripS;
+            pongs.emplace_back(now + took, took);
+        }
+        while (!pongs.empty() && pongs.front().first <= now) {
+            path = path == 0 ? pongs.front().second : std::min(path, pongs.front().second);
+            pongs.pop_front();
+        }
         while (!there.empty() && there.front().at <= now) {
             Flying frame = there.front();
             there.pop_front();
@@ -82,7 +93,9 @@ inline LinkRun runLink(const Link& link, Control control, double seconds, double
         }
         while (!back.empty() && back.front().at <= now) {
             const std::chrono::microseconds hold{std::llround(showS * 1e6)};
-            pacing.acked({.sequence = back.front().sequence, .hold = hold}, time(now));
+            const std::chrono::microseconds ping{std::llround(path * 1e6)};
+            pacing.acked({.sequence = back.front().sequence, .hold = hold, .path = ping},
+                         time(now));
             back.pop_front();
         }
         pacing.forgiveSilence(time(now));

@@ -1,5 +1,6 @@
 import { signal } from "@preact/signals";
 import { render } from "preact";
+import { takeAccess } from "./access";
 import { AddressBar, beginningsOf } from "./address_bar";
 import { keepPage, takeKeptPage } from "./kept_page";
 import { keepMyName, myName } from "./my_name";
@@ -40,6 +41,7 @@ const helpOpen = signal(false);
 const shareOpen = signal(false);
 keepOptions(shared.options);
 
+const access = takeAccess();
 const kept = takeKeptPage();
 const named = kept ? undefined : await readAddress(location.hash);
 
@@ -51,6 +53,7 @@ const session = new Session({
   state: shared,
   codecs: codecsHere(),
   person: myName,
+  access,
   resume: kept?.resume,
   patch: (frame) => panes.all.value[0]?.pictures.tryPatch(frame),
 });
@@ -101,7 +104,13 @@ const pagePort: PagePort = {
 /** Shows what was uploaded, in the active view, as soon as the server lists it. */
 async function sendFiles(files: readonly File[], folder: string | undefined): Promise<void> {
   const { upload } = await import("./state/send_upload");
-  await upload(shared, files, folder, ([first]) => first && active().port.openDataset(first));
+  await upload(
+    shared,
+    access,
+    files,
+    folder,
+    ([first]) => first && active().port.openDataset(first),
+  );
 }
 
 const camera = {

@@ -27,8 +27,10 @@ import {
 import { needsComparison } from "./state/difference";
 import type { ViewDocument } from "./state/document";
 import { followCamera, followScene, joinScene } from "./state/follow";
+import { followIdle } from "./state/idle_measure";
 import { atRest, followThumbnails, ThumbnailKeeper, thumbnailSize } from "./state/model_thumbnails";
 import { whyNotSteering } from "./state/people";
+import { followPins } from "./state/pins";
 import { codeToDescribe } from "./state/shader_actions";
 import { followShownOrbit } from "./state/shown_orbit";
 import { followTime } from "./state/time_steps";
@@ -252,6 +254,15 @@ export function openPane(page: PanePort, beginning: PaneBeginning): Pane {
     followTime(state, {
       now: () => performance.now(),
       after: (ms, run) => void setTimeout(run, ms),
+    }),
+    followPins(state, (pins) => questions.setPins(pins)),
+    followIdle(state, {
+      measure: () => questions.measure("measured"),
+      stop: () => questions.stopMeasuring(),
+      after(ms, run) {
+        const timer = setTimeout(run, ms);
+        return () => clearTimeout(timer);
+      },
     }),
     effect(() => {
       if (needsComparison(state)) untracked(() => questions.compare());

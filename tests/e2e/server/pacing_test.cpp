@@ -115,7 +115,7 @@ TEST_F(PacingAndCodecs, OnASlowWayFewFramesAreAheadAndTheStepsAreInTheHeaders) {
         bytes += frame.payload.size();
     };
     ASSERT_TRUE(steer(client, seq, check, [](const auto& header) {
-        return header.pace().quality() == 60;
+        return header.pace().quality() <= 60;
     })) << server().log();
     ASSERT_TRUE(steer(client, seq, check, [](const auto& header) {
         return header.pace().reason().find("queueing delay") != std::string::npos;

@@ -130,6 +130,7 @@ std::optional<RawFrame> RawSocket::readFrame() {
                    .opcode = static_cast<unsigned>(byteAt(0) & 15U),
                    .payload = buffer_.substr(2 + extra, length)};
     buffer_.erase(0, 2 + extra + length);
+    if (frame.opcode == kPing) return readFrame();
     return frame;
 }
 

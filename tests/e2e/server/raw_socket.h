@@ -47,7 +47,8 @@ public:
     bool upgrade(const std::string& moreHeaders = "");
     /// The answer's head of an HTTP request, up to its blank line; empty where the server closed.
     std::string readHead();
-    /// The next frame; nullopt where the server closed, or after a minute.
+    /// The next frame but the pings that the server measures the way with; nullopt where the server
+    /// closed, or after a minute.
     std::optional<RawFrame> readFrame();
     /// Waits for the end of the server's data; false where a minute was not enough.
     bool readToEnd();

@@ -73,6 +73,33 @@ TEST(Link, HugeTextIsRefused) {
     EXPECT_FALSE(readLink("", *LinkKey::random(), kNow).has_value());
 }
 
+TEST(Access, IsReadInItsRoleUntilItExpires) {
+    const LinkKey key = *LinkKey::random();
+    for (const v1::Role role : {v1::ROLE_WATCH, v1::ROLE_CONTROL}) {
+        const auto token = signAccess({.role = role, .expires = kNow + seconds{5}}, key);
+        ASSERT_TRUE(token.has_value());
+        const auto read = readAccess(*token, key, kNow + seconds{4});
+        ASSERT_TRUE(read.has_value()) << read.error().message;
+        EXPECT_EQ(read->role, role);
+        EXPECT_EQ(read->expires, kNow + seconds{5});
+        const auto late = readAccess(*token, key, kNow + seconds{5});
+        ASSERT_FALSE(late.has_value());
+        EXPECT_EQ(late.error().message, "the access token has expired");
+    }
+}
+
+TEST(Access, IsNoLinkAndNoLinkIsOne) {
+    const LinkKey key = *LinkKey::random();
+    const auto expires = kNow + seconds{5};
+    const std::string token = *signAccess({.role = v1::ROLE_CONTROL, .expires = expires}, key);
+    EXPECT_FALSE(readLink(token, key, kNow).has_value());
+    const std::string link =
+        *signLink({.view = "v", .role = v1::ROLE_CONTROL, .expires = expires}, key);
+    EXPECT_FALSE(readAccess(link, key, kNow).has_value());
+    EXPECT_FALSE(readAccess(token, *LinkKey::random(), kNow).has_value());
+    EXPECT_FALSE(readAccess("", key, kNow).has_value());
+}
+
 TEST(LinkKey, AFileIsMadeOnceForItsOwnerAndReadAgain) {
     const support::TemporaryFolder folder;
     const std::string path = (folder.path() / "key").string();

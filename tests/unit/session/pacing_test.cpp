@@ -121,7 +121,57 @@ TEST(Pacing, WhatWasSentBeforeAStepDoesNotCauseTheNext) {
     for (std::uint32_t sequence = 2; sequence <= 9; ++sequence) {
         pacing.acked({.sequence = sequence}, kStart + milliseconds{500 * sequence});
     }
+    EXPECT_EQ(pacing.level().quality, 45) << "three steps at once, 245 ms, and no more";
+    EXPECT_EQ(pacing.level().scale, 1.0);
+}
+
+// 300 ms for a frame where a ping takes 200: the way is thin, though nothing waits on it.
+TEST(Pacing, AFrameThatTakesLongOnItsWayCostsSteps) {
+    Pacing pacing;
+    pacing.sent(1, 40'000, kStart);
+    pacing.acked({.sequence = 1, .path = milliseconds{200}}, kStart + milliseconds{300});
     EXPECT_EQ(pacing.level().quality, 75);
+    pacing.sent(2, 40'000, kStart + milliseconds{1000});
+    pacing.acked({.sequence = 2, .path = milliseconds{200}}, kStart + milliseconds{1301});
+    EXPECT_EQ(pacing.level().scale, 1.0);
+    EXPECT_EQ(pacing.level().quality, 45);
+    EXPECT_EQ(
+        pacing.report(kStart).reason,
+        "quality 75 to 60, quality 60 to 45: transfer and queueing delay 101 ms is over 50 ms");
+}
+
+// Fewer frames of the same bytes would each take as long.
+TEST(Pacing, TransferAloneCostsNoAccuracyAndNoRate) {
+    Pacing pacing;
+    TimePoint now = kStart;
+    for (std::uint32_t sequence = 1; sequence <= 40; ++sequence) {
+        pacing.sent(sequence, 40'000, now);
+        now += milliseconds{600};
+        pacing.acked({.sequence = sequence, .path = milliseconds{200}}, now);
+    }
+    EXPECT_EQ(pacing.level().scale, 0.5);
+    EXPECT_TRUE(pacing.level().fullAccuracy);
+    EXPECT_EQ(pacing.level().framesPerS, 0.0);
+}
+
+// A rate that a queue cost comes back once the queue has gone, however thin the way.
+TEST(Pacing, TransferDoesNotKeepTheRateDown) {
+    Pacing pacing;
+    TimePoint now = kStart;
+    std::uint32_t sequence = 0;
+    const auto frames = [&](int count, milliseconds roundTrip) {
+        for (int i = 0; i < count; ++i) {
+            pacing.sent(++sequence, 5'000, now);
+            now += roundTrip;
+            pacing.acked({.sequence = sequence, .path = milliseconds{200}}, now);
+        }
+    };
+    frames(1, milliseconds{240});
+    frames(30, milliseconds{400});
+    ASSERT_GT(pacing.level().framesPerS, 0.0);
+    frames(400, milliseconds{240});
+    EXPECT_EQ(pacing.level().framesPerS, 0.0);
+    EXPECT_EQ(pacing.level().scale, 0.5) << "40 ms of transfer leave no room for larger pictures";
 }
 
 TEST(Pacing, TheLowestRateKeepsStartsApart) {

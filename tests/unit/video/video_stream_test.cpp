@@ -1,10 +1,13 @@
 #include "server/video/video_stream.h"
 
+#include <algorithm>
+#include <filesystem>
 #include <string>
 
 #include <gtest/gtest.h>
 
 #include "server/video/colour_patch.h"
+#include "server/video/video_encoders.h"
 #include "tests/support/av_decoder.h"
 #include "tests/unit/video/pictures.h"
 
@@ -172,6 +175,30 @@ TEST(VideoEncoders, SayWhatWorksAndWhyTheRestDoesNot) {
         const auto created = VideoStream::create(finding.codec);
         EXPECT_TRUE(created.has_value() || !finding.works) << finding.name;
     }
+}
+
+// Without hardware here: its encoders fail to open, each says why, and libx264 is used.
+TEST(VideoEncoders, OneThatDoesNotOpenLeadsToTheNext) {
+    const std::vector<EncoderFinding>& findings = videoEncoders();
+    ASSERT_EQ(findings.size(), kEncoderRows.size());
+    for (const VideoCodec codec : {VideoCodec::kVp9, VideoCodec::kH264}) {
+        std::string used;
+        for (const EncoderFinding& finding : findings) {
+            if (finding.codec != codec) continue;
+            EXPECT_EQ(finding.used, finding.works && used.empty()) << finding.name;
+            if (finding.used) used = finding.name;
+            if (!finding.works) EXPECT_NE(finding.detail.find(finding.name), std::string::npos);
+        }
+        const auto stream = VideoStream::create(codec);
+        EXPECT_EQ(stream ? (*stream)->encoder() : "", used);
+    }
+    if (std::filesystem::exists("/dev/dri")) return;
+    const auto vaapi = std::ranges::find(findings, "h264_vaapi", &EncoderFinding::name);
+    ASSERT_NE(vaapi, findings.end());
+    EXPECT_FALSE(vaapi->works);
+    EXPECT_TRUE(vaapi->detail.find("no render node /dev/dri/renderD*") != std::string::npos ||
+                vaapi->detail.find("libavcodec has no encoder") != std::string::npos)
+        << vaapi->detail;
 }
 
 TEST(ColourPatch, PassesAsItIsAndFailsWithAnotherRangeOrMatrix) {

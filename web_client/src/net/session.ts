@@ -31,6 +31,8 @@ export interface SessionDesc {
   readonly codecs: readonly Codec[];
   /** The name that others see. */
   readonly person: () => string;
+  /** An access token; empty: none. */
+  readonly access: string;
   readonly resume: Resumption | undefined;
   /** A colour patch: `patchDecoded` is to be called with what the decoder makes of it. */
   readonly patch: (frame: Frame) => void;
@@ -133,7 +135,7 @@ export class Session implements Wire {
   }
 
   #greet(): void {
-    const { codecs, person } = this.#desc;
+    const { codecs, person, access } = this.#desc;
     this.send({
       case: "hello",
       value: {
@@ -143,6 +145,7 @@ export class Session implements Wire {
         codecs: [...codecs],
         person: person(),
         resume: this.#resume,
+        access,
       },
     });
   }

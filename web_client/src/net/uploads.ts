@@ -23,6 +23,7 @@ interface Answer {
 
 /** XMLHttpRequest and not fetch: the latter does not tell how much was sent. */
 function request(
+  access: string,
   method: string,
   path: string,
   body: File | undefined,
@@ -33,6 +34,7 @@ function request(
     const http = new XMLHttpRequest();
     const abort = (): void => http.abort();
     http.open(method, path);
+    if (access) http.setRequestHeader("Authorization", `Bearer ${access}`);
     http.upload.onprogress = (event) => sent?.(event.loaded);
     http.onload = () => resolve({ status: http.status, text: http.responseText.trim() });
     http.onerror = () => reject(new UploadError("the connection was lost"));
@@ -55,9 +57,10 @@ async function succeeded(answer: Promise<Answer>): Promise<string> {
 
 /**
  * Sends files that belong together; returns the ids of the datasets that the server finds in them.
- * Where it fails or is aborted nothing is left on the server.
+ * Where it fails or is aborted nothing is left on the server. `access`: an access token, or nothing.
  */
 export async function sendUpload(
+  access: string,
   name: string,
   files: readonly File[],
   signal: AbortSignal,
@@ -72,14 +75,18 @@ export async function sendUpload(
         progressed({ sentBytes: before + bytes, totalBytes, file: file.name });
       tell(0);
       const path = `${upload}/${encodeURIComponent(file.name)}`;
-      await succeeded(request("PUT", path, file, signal, tell));
+      await succeeded(request(access, "PUT", path, file, signal, tell));
       before += file.size;
     }
     const path = `${upload}?name=${encodeURIComponent(name)}`;
-    const { datasets } = JSON.parse(await succeeded(request("POST", path, undefined, signal)));
+    const { datasets } = JSON.parse(
+      await succeeded(request(access, "POST", path, undefined, signal)),
+    );
     return datasets;
   } catch (error) {
-    void request("DELETE", upload, undefined, new AbortController().signal).catch(() => undefined);
+    void request(access, "DELETE", upload, undefined, new AbortController().signal).catch(
+      () => undefined,
+    );
     throw error;
   }
 }

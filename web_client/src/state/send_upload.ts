@@ -6,6 +6,7 @@ import { isData, uploadName, uploadProblem } from "./upload_plan";
 /** Sends files, one upload at a time; `done` gets the datasets in them. */
 export async function upload(
   state: Pick<AppState, "welcome" | "upload">,
+  access: string,
   files: readonly File[],
   folder: string | undefined,
   done: (datasets: readonly string[]) => void,
@@ -28,7 +29,7 @@ export async function upload(
   state.upload.value = { ...begun, error: problem };
   if (problem) return;
   try {
-    const datasets = await sendUpload(name, data, aborted.signal, (progress) => {
+    const datasets = await sendUpload(access, name, data, aborted.signal, (progress) => {
       state.upload.value = { ...begun, ...progress };
     });
     state.upload.value = undefined;
