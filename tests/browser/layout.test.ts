@@ -51,7 +51,7 @@ describe("layout", () => {
     [768, 1024],
     [2560, 1440],
   ])("%s pixels fit, and nothing lies over anything else", async (width, height) => {
-    const client = await Client.open(browser, server.url, { viewport: { width, height } });
+    const client = await place.open({ viewport: { width, height } });
     for (const colorScheme of ["light", "dark"] as const) {
       await client.page.emulateMedia({ colorScheme });
       expect(await violations(client)).toEqual([]);
@@ -63,6 +63,7 @@ describe("layout", () => {
       const { scrollWidth, clientWidth } = document.documentElement;
       const kinds = ".tools, .badge, .readout, .legend, .axes, .scale-bar, .panel";
       const parts = [...document.querySelectorAll(kinds)]
+        .filter((e, _, all) => !all.some((other) => other !== e && other.contains(e)))
         .map((e) => ({ name: e.className, box: e.getBoundingClientRect() }))
         .filter(({ box }) => box.width > 0 && box.height > 0);
       const overlaps = parts.flatMap((a, i) =>
@@ -96,7 +97,7 @@ describe("layout", () => {
   });
 
   it.each(["Escape", "Enter"])("a dialog keeps the focus until %s gives it back", async (key) => {
-    const client = await Client.open(browser, server.url, kWide);
+    const client = await place.open(kWide);
     const opener = client.page.getByRole("button", { name: "Share", exact: true });
     await opener.press("Enter");
     await client.page.waitForSelector("dialog[open]");

@@ -80,26 +80,26 @@ describe("a map whose colours and opacities are edited apart", () => {
 
 describe("a smooth curve of opacities", () => {
   const smooth = () => client.page.getByRole("checkbox", { name: /^Smooth opacity/ });
+  const chosen = () => points("Opacity").and(client.page.locator('[aria-pressed="true"]'));
 
   it("has points of its own, and one that is added leaves the picture as it is to the bit", async () => {
     await client.after(() => smooth().check());
     expect(await apart().isChecked()).toBe(true);
     expect(await apart().isDisabled()).toBe(true);
-    await client.after(() => drag("Opacity", 3, 0, -60));
-    await client.after(() => drag("Opacity", 5, 0, 50));
+    await client.page.locator(".map-plot").scrollIntoViewIfNeeded();
+    await client.after(() => drag("Opacity", 2, 0, -60));
+    await client.after(() => drag("Opacity", 3, 0, 50));
     const before = await client.pixels();
     const bent = await picture();
     const count = await points("Opacity").count();
     const colours = await points("Colour").count();
     const ground = await client.page.locator(".map-ground").boundingBox();
     if (!ground) throw new Error("the editor has no ground");
-    for (const [i, x] of [0.23, 0.42, 0.58, 0.75].entries()) {
+    for (const [i, x] of [0.12, 0.4, 0.6, 0.87].entries()) {
       const place = [ground.x + x * ground.width, ground.y + 8] as const;
       await client.after(() => client.page.mouse.click(...place));
       expect(await points("Opacity").count()).toBe(count + i + 1);
-      const added = await points("Opacity")
-        .and(client.page.locator('[aria-pressed="true"]'))
-        .boundingBox();
+      const added = await chosen().boundingBox();
       expect(Math.abs((added?.x ?? 0) + (added?.width ?? 0) / 2 - place[0])).toBeLessThan(6);
       expect(difference(before, await client.pixels()).largest).toBe(0);
     }
@@ -108,7 +108,7 @@ describe("a smooth curve of opacities", () => {
       .locator(".map-plot")
       .screenshot({ path: join(screenshotFolder(), "map-smooth.png") });
 
-    await client.after(() => client.page.keyboard.press("Delete"));
+    await client.after(() => chosen().press("Delete"));
     expect(await points("Opacity").count()).toBe(count + 3);
     expect(await picture()).toBe(bent);
     await client.after(() => drag("Opacity", 4, 0, -15));
@@ -116,6 +116,7 @@ describe("a smooth curve of opacities", () => {
     expect(moved).not.toBe(bent);
     await client.page.reload();
     await client.settled();
+    await client.page.locator(".map-plot").scrollIntoViewIfNeeded();
     expect(await picture()).toBe(moved);
     expect(await points("Opacity").count()).toBe(count + 3);
     await client.after(() => smooth().uncheck());

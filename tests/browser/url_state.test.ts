@@ -182,7 +182,9 @@ describe("a saved scene", () => {
     const added = client.page.getByRole("button", { name: /^Opacity point 3 of/ });
     await client.after(() => added.press("ArrowUp"));
     await client.after(() =>
-      untilAddressed(client, () => client.page.getByLabel(/^Density/).fill("0.5")),
+      untilAddressed(client, () =>
+        client.page.getByRole("slider", { name: /^Density/ }).fill("0.5"),
+      ),
     );
     const count = await client.page.locator(".map-point").count();
     const before = await picture(client);
@@ -196,7 +198,7 @@ describe("a saved scene", () => {
     for (const one of [other, await open(client.page.url())]) {
       expect(await picture(one)).toBe(before);
       expect(await one.page.getByLabel(/^Smooth opacity/).isChecked()).toBe(true);
-      expect(await one.page.getByLabel(/^Density/).inputValue()).toBe("0.5");
+      expect(await one.page.getByRole("slider", { name: /^Density/ }).inputValue()).toBe("0.5");
       expect(await one.page.locator(".map-point").count()).toBe(count);
     }
   });
