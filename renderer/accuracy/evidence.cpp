@@ -12,8 +12,9 @@ namespace {
 constexpr std::uint64_t kPixels = 256;  // Compared, of a small picture of the same view.
 constexpr int kLongerSide = 96;
 constexpr std::size_t kMostKept = 16;
-constexpr int kTimedSide = 256;  // Longer side of the pictures of voxels that are timed.
-constexpr int kTimedFrames = 3;
+/// Longer side of the pictures of voxels that are timed; other views wait meanwhile.
+constexpr int kTimedSide = 128;
+constexpr int kTimedFrames = 2;
 
 /// What errors depend on, as far as they are kept.
 scene::Scene essence(scene::Scene scene) {
