@@ -18,18 +18,15 @@ interface Props {
 export function Dialog({ id, heading, look = "", close, children }: Props) {
   const dialog = useRef<HTMLDialogElement>(null);
   useEffect(() => {
-    const before = document.activeElement;
-    dialog.current?.showModal();
-    // One that leaves the page while it is open takes the focus with it.
-    return () => {
-      if (before instanceof HTMLElement && before.isConnected) before.focus();
-    };
+    const shown = dialog.current;
+    shown?.showModal();
+    return () => shown?.close();
   }, []);
   return (
     <dialog ref={dialog} class={`dialog ${look}`} aria-labelledby={id} onClose={close}>
       <header>
         <h2 id={id}>{heading}</h2>
-        <IconButton icon="close" label="Close" onClick={close} />
+        <IconButton icon="close" label="Close" onClick={() => dialog.current?.close()} />
       </header>
       {children}
     </dialog>
