@@ -19,6 +19,10 @@ export default defineConfig({
     include: ["tests/browser/*.test.ts"],
     environment: "node",
     fileParallelism: false,
+    // One process, so that all files share one browser (support/browser.ts) and are loaded into warm modules.
+    pool: "forks",
+    poolOptions: { forks: { singleFork: true, isolate: false } },
+    expect: { poll: { timeout: 20_000 } }, // A page's state is waited for, not looked at once.
     testTimeout: 120_000,
     hookTimeout: 120_000,
   },

@@ -12,6 +12,9 @@ namespace {
 constexpr std::uint64_t kPixels = 256;  // Compared, of a small picture of the same view.
 constexpr int kLongerSide = 96;
 constexpr std::size_t kMostKept = 16;
+/// Longer side of the pictures of voxels that are timed; other views wait meanwhile.
+constexpr int kTimedSide = 128;
+constexpr int kTimedFrames = 2;
 
 /// What errors depend on, as far as they are kept.
 scene::Scene essence(scene::Scene scene) {
@@ -21,10 +24,14 @@ scene::Scene essence(scene::Scene scene) {
     return scene;
 }
 
-scene::PictureSize smallOf(scene::PictureSize size) {
+scene::PictureSize smallOf(scene::PictureSize size, int side = kLongerSide) {
     const int longer = std::max(size.x, size.y);
-    if (longer <= kLongerSide) return size;
-    return glm::max(size * kLongerSide / longer, scene::PictureSize{1});
+    if (longer <= side) return size;
+    return glm::max(size * side / longer, scene::PictureSize{1});
+}
+
+double pixelsOf(scene::PictureSize size) {
+    return static_cast<double>(size.x) * size.y;
 }
 
 }  // namespace
@@ -92,6 +99,40 @@ Result<plan::SceneEvidence> EvidenceKeeper::of(const scene::Scene& scene, scene:
             }
             const auto error = (*found)->errors.find(row.integrator);
             if (error != (*found)->errors.end()) one.error = error->second;
+        }
+    }
+    return evidence;
+}
+
+Result<double> EvidenceKeeper::timeOf(const scene::Scene& scene, scene::PictureSize size,
+                                      const Candidate& candidate) {
+    Job job{.scene = scene,
+            .size = smallOf(size, kTimedSide),
+            .aim = Aim::kTime,
+            .frames = kTimedFrames};
+    job.scene.accuracy = {};
+    for (scene::Layer& layer : job.scene.layers) layer.visible = false;
+    scene::Layer& own = job.scene.layers[candidate.layer];
+    own.visible = true;
+    own.integrator = candidate.integrator;
+    while (true) {  // Parts end: each draws a picture.
+        const auto measured = meter_.advance(job);
+        if (!measured) return measured.error();
+        if (*measured) return (*measured)->medianMs * pixelsOf(size) / pixelsOf(job.size);
+    }
+}
+
+Result<plan::SceneEvidence> EvidenceKeeper::estimates(const scene::Scene& scene,
+                                                      scene::PictureSize size) {
+    auto evidence = of(scene, size);
+    if (!evidence) return evidence;
+    for (std::size_t i = 0; i < scene.layers.size(); ++i) {
+        const auto rows = evidence->find(scene.layers[i].id);
+        if (rows == evidence->end() || isMesh(scene.layers[i])) continue;
+        for (plan::Evidence& one : rows->second) {
+            const auto ms = timeOf(scene, size, {.layer = i, .integrator = one.integrator});
+            if (!ms && ms.error().code == ErrorCode::kDeviceLost) return ms.error();
+            if (ms) one.predictedMs = *ms;
         }
     }
     return evidence;

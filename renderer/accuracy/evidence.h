@@ -46,8 +46,8 @@ private:
 };
 
 /// Gathers what plans need to know where a scene bounds error or time, and keeps it: errors hold
-/// for a scene whatever its camera, until its data, maps or models change. Of voxels errors alone
-/// are known.
+/// for a scene whatever its camera, until its data, maps or models change. What voxels take is
+/// not kept: it is measured where it is asked for.
 class EvidenceKeeper {
 public:
     EvidenceKeeper(scene::Renderer& renderer, Meter& meter, Costs costs)
@@ -57,6 +57,11 @@ public:
     ///
     /// Errors: kDeviceLost.
     Result<plan::SceneEvidence> of(const scene::Scene& scene, scene::PictureSize size);
+    /// The same, and what a picture takes of voxels, layer by layer: from the times of smaller
+    /// pictures of this very view, drawn now in each way, for as many pixels as `size` has.
+    ///
+    /// Errors: kDeviceLost.
+    Result<plan::SceneEvidence> estimates(const scene::Scene& scene, scene::PictureSize size);
     /// To be called when the dataset is replaced or removed.
     void forget(const std::string& dataset);
 
@@ -71,6 +76,9 @@ private:
     [[nodiscard]] bool isMesh(const scene::Layer& layer) const;
     Result<const Known*> known(const scene::Scene& scene, scene::PictureSize size,
                                std::size_t layer);
+    /// Milliseconds of a picture of one layer, drawn as the candidate says.
+    Result<double> timeOf(const scene::Scene& scene, scene::PictureSize size,
+                          const Candidate& candidate);
 
     scene::Renderer& renderer_;
     Meter& meter_;

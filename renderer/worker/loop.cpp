@@ -231,9 +231,11 @@ Result<void> Loop::measure(const wire::Measure& request) {
 
 Result<std::optional<accuracy::Measurement>> Loop::advance(const accuracy::Job& job) {
     if (job.aim == accuracy::Aim::kCandidate) return meter_.advance(job);
-    const auto evidence = evidence_.of(job.scene, job.size);
+    const bool estimates = job.aim == accuracy::Aim::kEstimates;
+    const auto evidence =
+        estimates ? evidence_.estimates(job.scene, job.size) : evidence_.of(job.scene, job.size);
     if (!evidence) return evidence.error();
-    if (job.aim != accuracy::Aim::kEstimates) return meter_.advance(job, *evidence);
+    if (!estimates) return meter_.advance(job, *evidence);
     accuracy::Measurement measured;
     measured.estimates = *evidence;
     return measured;

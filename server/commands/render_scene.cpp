@@ -1,7 +1,10 @@
 #include "server/commands/render_scene.h"
 
 #include <cmath>
+#include <string>
 #include <utility>
+
+#include <boost/json.hpp>
 
 #include "renderer/scene/default_scene.h"
 #include "renderer/scene/validate.h"
@@ -14,11 +17,19 @@ namespace volcast::commands {
 
 namespace {
 
+/// A scene file but for "editor", what the web client knows besides of how its maps were edited.
+std::string withoutEditor(const std::string& text) {
+    boost::system::error_code failed;
+    boost::json::value file = boost::json::parse(text, failed);
+    if (failed || !file.is_object() || file.as_object().erase("editor") == 0) return text;
+    return boost::json::serialize(file);
+}
+
 Result<scene::Scene> documentScene(const SceneOptions& options,
                                    const data::DatasetSummary& summary) {
     auto text = readTextFile(options.sceneFile);
     if (!text) return std::move(text).error();
-    auto scene = worker::sceneFromJson(*text, [&](const std::string& field) {
+    auto scene = worker::sceneFromJson(withoutEditor(*text), [&](const std::string& field) {
         return scene::defaultLayer(kRenderDataset, summary, field, scene::RayModel::kVolume);
     });
     if (!scene) return in(options.sceneFile, scene.error());

@@ -1,4 +1,5 @@
 // Who is in a view: coming, going, coming back, and who steers.
+#include <iterator>
 #include <utility>
 
 #include <spdlog/spdlog.h>
@@ -7,6 +8,18 @@
 #include "server/session/wire.h"
 
 namespace volcast::session {
+
+namespace {
+
+/// Moves the entry at `own` before others of the same person, so that one finds one's own place.
+void putFirst(v1::People& people, int own) {
+    auto& list = *people.mutable_people();
+    for (int i = 0; i < own; ++i) {
+        if (list[i].id() == list[own].id()) return list.SwapElements(i, own);
+    }
+}
+
+}  // namespace
 
 Result<ViewerId> SharedView::join(Viewer::Desc desc, Member member, TimePoint now) {
     const Turn turn{*this};
@@ -156,6 +169,8 @@ void SharedView::tellPeople() {
     for (const auto& [id, viewer] : viewers_) {
         v1::ServerMessage message;
         *message.mutable_people() = people_.message(viewer->number());
+        const auto own = std::distance(people_.all().begin(), people_.all().find(id));
+        putFirst(*message.mutable_people(), static_cast<int>(own));
         tell(*viewer, std::move(message));
     }
 }

@@ -6,6 +6,11 @@
 namespace volcast::session {
 
 void ViewPeople::add(ViewerId id, Member member) {
+    // Who has the view open twice may do the same in both.
+    const bool controls = std::ranges::any_of(members_, [&member](const auto& one) {
+        return one.second.person == member.person && one.second.role == v1::ROLE_CONTROL;
+    });
+    if (controls) member.role = v1::ROLE_CONTROL;
     members_.insert_or_assign(id, std::move(member));
     fill();
 }

@@ -1,27 +1,19 @@
-import type { Browser, CDPSession } from "playwright-core";
-import { afterAll, beforeAll, beforeEach, describe, expect, it } from "vitest";
-import { Client, launch } from "./support/client";
+import type { CDPSession } from "playwright-core";
+import { beforeAll, beforeEach, describe, expect, it } from "vitest";
+import type { Client } from "./support/client";
 import { difference, hashOf, type Pixels } from "./support/pixels";
-import { Server } from "./support/server";
+import { setUp } from "./support/set_up";
 
-let server: Server;
-let browser: Browser;
+const place = setUp();
 let client: Client;
 let home: Pixels;
 
 beforeAll(async () => {
-  server = await Server.start();
-  browser = await launch();
-  client = await Client.open(browser, server.url, {
-    viewport: { width: 900, height: 600 },
+  client = await place.open({
+    viewport: { width: 760, height: 480 },
     hasTouch: true,
   });
   home = await client.pixels();
-});
-
-afterAll(async () => {
-  await browser?.close();
-  await server?.stop();
 });
 
 /** Every test starts from the first picture. */

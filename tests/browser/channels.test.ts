@@ -1,21 +1,17 @@
-import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
-import { tmpdir } from "node:os";
+import { writeFileSync } from "node:fs";
 import { join } from "node:path";
-import type { Browser } from "playwright-core";
-import { afterAll, beforeAll, describe, expect, it } from "vitest";
-import { Client, launch } from "./support/client";
+import { beforeAll, describe, expect, it } from "vitest";
+import type { Client } from "./support/client";
 import { hashOf } from "./support/pixels";
-import { Server } from "./support/server";
+import { setUp } from "./support/set_up";
 
 const kSide = 16;
 
-let folder: string;
-let server: Server;
-let browser: Browser;
+const place = setUp({ data: writeData });
 let client: Client;
 
 /** Two balls beside each other, one a channel. */
-function writeData(): void {
+function writeData(folder: string): void {
   const header = [
     "ObjectType = Image",
     "NDims = 3",
@@ -37,17 +33,7 @@ function writeData(): void {
 }
 
 beforeAll(async () => {
-  folder = mkdtempSync(join(tmpdir(), "volcast-channels-"));
-  writeData();
-  server = await Server.start({ data: folder });
-  browser = await launch();
-  client = await Client.open(browser, server.url, { viewport: { width: 1000, height: 900 } });
-});
-
-afterAll(async () => {
-  await browser?.close();
-  await server?.stop();
-  rmSync(folder, { recursive: true, force: true });
+  client = await place.open({ viewport: { width: 760, height: 900 } });
 });
 
 const picture = async (): Promise<string> => hashOf(await client.pixels());
@@ -59,7 +45,7 @@ describe("channels of a volume", () => {
     await client.after(() => together.check());
     const both = await picture();
     const rows = client.page.locator(".channel");
-    expect(await rows.count()).toBe(2);
+    await expect.poll(() => rows.count()).toBe(2);
     await client.after(() => rows.nth(0).getByRole("checkbox", { name: "balls_0" }).uncheck());
     const second = await picture();
     await client.after(() => rows.nth(0).getByRole("checkbox", { name: "balls_0" }).check());
@@ -81,6 +67,6 @@ describe("channels of a volume", () => {
     await client.page.mouse.move(x, y);
     const line = client.page.locator(".picked");
     await line.waitFor();
-    expect(await line.innerText()).toMatch(/balls_0.*balls_1|balls_1.*balls_0/s);
+    await expect.poll(() => line.innerText()).toMatch(/balls_0.*balls_1|balls_1.*balls_0/s);
   });
 });

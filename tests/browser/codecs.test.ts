@@ -1,24 +1,15 @@
-import type { Browser } from "playwright-core";
-import { afterAll, beforeAll, describe, expect, it } from "vitest";
+import { beforeAll, describe, expect, it } from "vitest";
 import { Codec } from "../../web_client/src/net/gen/volcast/v1/frame_pb";
 import { xxh32 } from "../../web_client/src/video/xxh32";
-import { Client, launch } from "./support/client";
+import type { Client } from "./support/client";
 import { decodePng } from "./support/pixels";
-import { Server } from "./support/server";
+import { setUp } from "./support/set_up";
 
-let server: Server;
-let browser: Browser;
+const place = setUp();
 let client: Client;
 
 beforeAll(async () => {
-  server = await Server.start();
-  browser = await launch();
-  client = await Client.open(browser, server.url, { viewport: { width: 900, height: 600 } });
-});
-
-afterAll(async () => {
-  await browser?.close();
-  await server?.stop();
+  client = await place.open({ viewport: { width: 760, height: 480 } });
 });
 
 describe("codecs", () => {
@@ -39,9 +30,11 @@ describe("codecs", () => {
     expect(tried).toBe(true); // 127.0.0.1 is a secure origin.
     const sent = client.patches.map((patch) => patch.header.codec);
     expect(sent).toContain(Codec.VP9);
-    await expect.poll(() => server.patches().length, { timeout: 30_000 }).toBe(sent.length);
-    for (const line of server.patches()) console.info(line);
-    expect(server.patches().find((line) => line.includes("CODEC_VP9"))).toContain("passed=true");
+    await expect.poll(() => place.server.patches().length, { timeout: 30_000 }).toBe(sent.length);
+    for (const line of place.server.patches()) console.info(line);
+    expect(place.server.patches().find((line) => line.includes("CODEC_VP9"))).toContain(
+      "passed=true",
+    );
   });
 
   it("draws a view by each video codec that passed, and its exact picture after it", async () => {
@@ -54,7 +47,7 @@ describe("codecs", () => {
       new MutationObserver(look).observe(picture, { attributeFilter: ["data-sequence"] });
     });
     for (const codec of [Codec.VP9, Codec.H264]) {
-      const line = server.patches().find((one) => one.includes(`CODEC_${Codec[codec]}`));
+      const line = place.server.patches().find((one) => one.includes(`CODEC_${Codec[codec]}`));
       if (!line?.includes("passed=true")) {
         console.info(`not shown here: ${Codec[codec]}`);
         continue;

@@ -1,21 +1,17 @@
-import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
-import { tmpdir } from "node:os";
+import { writeFileSync } from "node:fs";
 import { join } from "node:path";
-import type { Browser } from "playwright-core";
-import { afterAll, beforeAll, describe, expect, it } from "vitest";
-import { Client, launch } from "./support/client";
+import { beforeAll, describe, expect, it } from "vitest";
+import type { Client } from "./support/client";
 import { countColours } from "./support/pixels";
-import { Server } from "./support/server";
+import { setUp } from "./support/set_up";
 
 const kSide = 12;
 
-let folder: string;
-let server: Server;
-let browser: Browser;
+const place = setUp({ data: writeData });
 let client: Client;
 
 /** A ball of falling values; the file before it in the list is cut short. */
-function writeData(): void {
+function writeData(folder: string): void {
   const header = [
     "ObjectType = Image",
     "NDims = 3",
@@ -37,17 +33,7 @@ function writeData(): void {
 }
 
 beforeAll(async () => {
-  folder = mkdtempSync(join(tmpdir(), "volcast-data-"));
-  writeData();
-  server = await Server.start({ data: folder });
-  browser = await launch();
-  client = await Client.visit(browser, server.url);
-});
-
-afterAll(async () => {
-  await browser?.close();
-  await server?.stop();
-  rmSync(folder, { recursive: true, force: true });
+  client = await place.visit();
 });
 
 const row = (id: string) => client.page.locator(`.dataset[data-dataset="${id}"]`);
@@ -56,8 +42,8 @@ describe("a folder with a broken file", () => {
   it("says in the list which file is broken, and why", async () => {
     const error = row("a_broken.vtu").locator(".dataset-error");
     await error.waitFor({ timeout: 60_000 });
-    expect(await error.textContent()).toContain("a_broken.vtu");
-    expect(await row("ball.mhd").count()).toBe(1);
+    await expect.poll(() => error.textContent()).toContain("a_broken.vtu");
+    await expect.poll(() => row("ball.mhd").count()).toBe(1);
   });
 
   it("shows the other file", async () => {

@@ -1,33 +1,22 @@
-import { mkdirSync, mkdtempSync, rmSync } from "node:fs";
-import { tmpdir } from "node:os";
 import { join } from "node:path";
-import type { Browser } from "playwright-core";
-import { afterAll, beforeAll, describe, expect, it } from "vitest";
+import { beforeAll, describe, expect, it } from "vitest";
 import { violations } from "./support/accessibility";
-import { Client, launch } from "./support/client";
+import type { Client } from "./support/client";
 import { writeVoxels } from "./support/data";
-import { Server, screenshotFolder } from "./support/server";
+import { screenshotFolder } from "./support/server";
+import { setUp } from "./support/set_up";
 
-let folder: string;
-let server: Server;
-let browser: Browser;
+const place = setUp({
+  data: (folder) => {
+    // 0, 1 ... 15 along x, each as often: the mean is 7.5, the variance (256 - 1) / 12.
+    const size = [16, 4, 5] as const;
+    writeVoxels(folder, "steps", { size, spacing: [0.5, 1, 2], value: (x) => x });
+  },
+});
 let client: Client;
 
 beforeAll(async () => {
-  mkdirSync(screenshotFolder(), { recursive: true });
-  folder = mkdtempSync(join(tmpdir(), "volcast-list-"));
-  // 0, 1 ... 15 along x, each as often: the mean is 7.5, the variance (256 - 1) / 12.
-  const size = [16, 4, 5] as const;
-  writeVoxels(folder, "steps", { size, spacing: [0.5, 1, 2], value: (x) => x });
-  server = await Server.start({ data: folder });
-  browser = await launch();
-  client = await Client.open(browser, server.url);
-});
-
-afterAll(async () => {
-  await browser?.close();
-  await server?.stop();
-  rmSync(folder, { recursive: true, force: true });
+  client = await place.open();
 });
 
 const row = () => client.page.locator(".dataset").first();
@@ -108,7 +97,7 @@ describe("a place that is kept", () => {
 
   it("is kept by a tap, where nothing can rest", async () => {
     const options = { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true };
-    const phone = await Client.open(browser, server.url, options);
+    const phone = await place.open(options);
     const { x, y } = await phone.middle();
     await phone.page.touchscreen.tap(x, y);
     await phone.page.locator(".picked").getByText("voxel").waitFor();

@@ -1,33 +1,20 @@
-import { mkdirSync } from "node:fs";
 import { join } from "node:path";
-import type { Browser } from "playwright-core";
-import { afterAll, beforeAll, describe, expect, it } from "vitest";
+import { beforeAll, describe, expect, it } from "vitest";
 import { violations } from "./support/accessibility";
-import { Client, launch } from "./support/client";
-import { Server, screenshotFolder } from "./support/server";
+import type { Client } from "./support/client";
+import { screenshotFolder } from "./support/server";
+import { setUp } from "./support/set_up";
 
-let server: Server;
-let browser: Browser;
+const place = setUp();
 let client: Client;
 const kComparedMs = 120_000;
 
 beforeAll(async () => {
-  mkdirSync(screenshotFolder(), { recursive: true });
-  server = await Server.start();
-  browser = await launch();
-  client = await Client.open(browser, server.url, { viewport: { width: 760, height: 420 } });
-  const row = client.page.locator('.dataset[data-dataset="demo:mesh"]');
-  if ((await row.getAttribute("data-shown")) === null) {
-    await client.after(() => row.locator(".dataset-choose").click());
-  }
+  client = await place.open({ viewport: { width: 760, height: 420 } });
+  await client.choose("demo:mesh");
   const slider = client.page.getByRole("slider", { name: "From fastest to exact" });
   await slider.waitFor();
   await client.after(() => slider.press("Home"));
-});
-
-afterAll(async () => {
-  await browser?.close();
-  await server?.stop();
 });
 
 const canvas = () => client.page.locator(".difference-picture");
@@ -70,9 +57,9 @@ describe("the difference from the reference", () => {
     await done();
     const size = (await client.fact("size")).split("x").map(Number);
     const thousands = Math.round(((size[0] ?? 0) * (size[1] ?? 0)) / 1000);
-    expect(await client.page.locator('[data-figure="pixels"]').textContent()).toBe(
-      `${thousands} k`,
-    );
+    await expect
+      .poll(() => client.page.locator('[data-figure="pixels"]').textContent())
+      .toBe(`${thousands} k`);
     const largest = await figure("max");
     expect(largest).toBeGreaterThan(1);
     expect(await figure("rms")).toBeLessThan(largest);
@@ -89,7 +76,7 @@ describe("the difference from the reference", () => {
     const end = client.page.getByRole("slider", { name: "Scale ends at" });
     const before = await count();
     await end.press("End");
-    expect(await end.getAttribute("aria-valuetext")).toBe("256 of 255");
+    await expect.poll(() => end.getAttribute("aria-valuetext")).toBe("256 of 255");
     const after = await count();
     expect(after.black).toBeGreaterThan(before.black);
     await end.fill("2");
@@ -117,9 +104,25 @@ describe("the difference from the reference", () => {
     expect(await violations(client)).toEqual([]);
   });
 
+  it("has a legend that leaves a narrow picture to be seen, and more of it on request", async () => {
+    await client.page.locator(".difference-legend .icon-button").click();
+    await client.after(() => client.page.locator(".sheet-toggle").click());
+    await client.page.getByRole("button", { name: "Show the difference" }).click();
+    await done();
+    const figures = client.page.locator(".difference-figures");
+    expect(await figures.isVisible()).toBe(false);
+    const legend = await client.page.locator(".difference-legend").boundingBox();
+    const picture = await client.page.locator(".picture").boundingBox();
+    expect(legend?.height).toBeLessThan((picture?.height ?? 0) / 3);
+    await client.page.screenshot({ path: join(screenshotFolder(), "difference-390-strip.png") });
+    await client.page.getByText("Scale and figures").click();
+    expect(await figures.isVisible()).toBe(true);
+    expect(await violations(client)).toEqual([]);
+  });
+
   it("is hidden again", async () => {
     await client.page.locator(".difference-legend .icon-button").click();
-    expect(await client.page.locator(".difference").count()).toBe(0);
+    await expect.poll(() => client.page.locator(".difference").count()).toBe(0);
     expect(client.complaints).toEqual([]);
   });
 });

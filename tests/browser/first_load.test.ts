@@ -1,20 +1,8 @@
 import type { Browser } from "playwright-core";
-import { afterAll, beforeAll, expect, it } from "vitest";
-import { launch } from "./support/client";
-import { Server } from "./support/server";
+import { expect, it } from "vitest";
+import { setUp } from "./support/set_up";
 
-let server: Server;
-let browser: Browser;
-
-beforeAll(async () => {
-  server = await Server.start();
-  browser = await launch();
-});
-
-afterAll(async () => {
-  await browser?.close();
-  await server?.stop();
-});
+const place = setUp();
 
 /** What a first visit may cost on the wire, headers included. */
 const kMostBytes = 150 * 1024;
@@ -44,7 +32,7 @@ async function visit(context: Awaited<ReturnType<Browser["newContext"]>>): Promi
     const path = paths.get(requestId);
     if (path && !path.startsWith("/v1/")) traffic.bytes.set(path, encodedDataLength);
   });
-  await page.goto(server.url);
+  await page.goto(place.url);
   await page.waitForSelector('.badge[data-state="final"]', { state: "attached", timeout: 60_000 });
   await page.waitForSelector(".axes");
   await page.close();
@@ -57,7 +45,7 @@ const sumOf = ({ bytes }: Traffic): number => [...bytes.values()].reduce((a, b) 
 const kSmall = 1024;
 
 it("needs less than 150 KB on the wire up to its first exact picture, and little the next time", async () => {
-  const context = await browser.newContext();
+  const context = await place.browser.newContext();
   const first = await visit(context);
   const list = [...first.bytes].map(([name, size]) => `${name} ${size}`).join(", ");
   console.log(`first load: ${list}: ${sumOf(first)}`);

@@ -1,29 +1,20 @@
-import { mkdirSync } from "node:fs";
 import { join } from "node:path";
-import type { Browser, Locator } from "playwright-core";
-import { afterAll, beforeAll, describe, expect, it } from "vitest";
+import type { Locator } from "playwright-core";
+import { beforeAll, describe, expect, it } from "vitest";
 import { violations } from "./support/accessibility";
-import { Client, launch } from "./support/client";
+import type { Client } from "./support/client";
 import { hashOf } from "./support/pixels";
-import { Server, screenshotFolder } from "./support/server";
+import { screenshotFolder } from "./support/server";
+import { setUp } from "./support/set_up";
 
-let server: Server;
-let browser: Browser;
+const place = setUp();
 let client: Client;
 
 beforeAll(async () => {
-  mkdirSync(screenshotFolder(), { recursive: true });
-  server = await Server.start();
-  browser = await launch();
-  client = await Client.open(browser, server.url, {
+  client = await place.open({
     viewport: { width: 1000, height: 800 },
     hasTouch: true,
   });
-});
-
-afterAll(async () => {
-  await browser?.close();
-  await server?.stop();
 });
 
 const handles = () => client.page.locator(".clip-handle");
@@ -44,7 +35,7 @@ describe("a clip plane's handle", () => {
   const plane = () => handle("Clip plane 1, X");
 
   it("is there with its plane, and moves it under the mouse, as one step", async () => {
-    expect(await handles().count()).toBe(0);
+    await expect.poll(() => handles().count()).toBe(0);
     await client.after(() => client.page.getByRole("button", { name: "Add a clip plane" }).click());
     const before = await picture();
     const place = await value(plane());
@@ -104,7 +95,7 @@ describe("a clip plane's handle", () => {
   it("removes its plane", async () => {
     await plane().focus();
     await client.after(() => client.page.keyboard.press("Delete"));
-    expect(await handles().count()).toBe(0);
+    await expect.poll(() => handles().count()).toBe(0);
   });
 });
 
@@ -112,7 +103,7 @@ describe("a clip box", () => {
   it("has a handle on each face", async () => {
     const whole = await picture();
     await client.after(() => client.page.getByRole("button", { name: "Clip to a box" }).click());
-    expect(await handles().count()).toBe(6);
+    await expect.poll(() => handles().count()).toBe(7); // And one in its middle.
     expect(await picture()).not.toBe(whole);
     const face = handle("Clip plane 6, Z");
     const before = await picture();
@@ -125,6 +116,38 @@ describe("a clip box", () => {
     });
     expect(await picture()).not.toBe(before);
     await client.page.screenshot({ path: join(screenshotFolder(), "handles-1000.png") });
+    expect(await violations(client)).toEqual([]);
+  });
+
+  it("moves as a whole by its middle, by mouse and by keys, as one step each", async () => {
+    const middle = client.page.getByRole("button", { name: /^Clip box, all of it/ });
+    const places = async (): Promise<number[]> =>
+      Promise.all(
+        (await client.page.getByRole("slider", { name: /^Clip plane/ }).all()).map(value),
+      );
+    const before = await places();
+    const shown = await picture();
+    const from = await middleOf(middle);
+    await client.after(async () => {
+      await client.page.mouse.move(from.x, from.y);
+      await client.page.mouse.down();
+      await client.page.mouse.move(from.x + 6, from.y, { steps: 3 });
+      await client.page.mouse.up();
+    });
+    expect(await picture()).not.toBe(shown);
+    const after = await places();
+    const moves = after.map((x, i) => x - (before[i] ?? 0));
+    expect(Math.max(...moves.map(Math.abs))).toBeGreaterThan(0);
+    // Faces of an axis go together: the box keeps its size.
+    for (const i of [0, 2, 4]) expect(moves[i]).toBeCloseTo(moves[i + 1] ?? Number.NaN, 6);
+    await client.after(undo);
+    expect(await places()).toEqual(before);
+    await middle.focus();
+    await client.after(() => client.page.keyboard.press("ArrowDown"));
+    expect(await places()).not.toEqual(before);
+    expect(await middle.evaluate((e) => e === document.activeElement)).toBe(true);
+    await client.after(undo);
+    expect(await picture()).toBe(shown);
     expect(await violations(client)).toEqual([]);
   });
 
@@ -141,11 +164,11 @@ describe("a clip box", () => {
     await client.after(() => client.page.setViewportSize({ width: 1000, height: 800 }));
     await client.page.getByRole("button", { name: "View", exact: true }).click();
     await client.page.getByLabel("Handles of clip planes").uncheck();
-    expect(await handles().count()).toBe(0);
+    await expect.poll(() => handles().count()).toBe(0);
     await client.page.getByLabel("Handles of clip planes").check();
     await client.page.keyboard.press("Escape");
     await client.after(() => client.page.getByRole("button", { name: "Remove all" }).click());
-    expect(await handles().count()).toBe(0);
+    await expect.poll(() => handles().count()).toBe(0);
     expect(client.complaints).toEqual([]);
   });
 });

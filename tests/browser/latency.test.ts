@@ -1,28 +1,13 @@
-import type { Browser } from "playwright-core";
-import { afterAll, beforeAll, describe, expect, it } from "vitest";
+import { describe, expect, it } from "vitest";
 import { percentile } from "../../web_client/src/state/latencies";
 import type { Stages } from "../../web_client/src/state/recorder";
-import { Client, launch } from "./support/client";
-import { Server } from "./support/server";
+import { setUp } from "./support/set_up";
 
-let server: Server;
-let browser: Browser;
+const place = setUp({ data: process.env.VOLCAST_LATENCY_DATA });
 
 const kPanel = 336;
 const kWanted = 60;
-const kLongestMs = 20_000;
-
-beforeAll(async () => {
-  server = await Server.start(
-    process.env.VOLCAST_LATENCY_DATA ? { data: process.env.VOLCAST_LATENCY_DATA } : {},
-  );
-  browser = await launch();
-});
-
-afterAll(async () => {
-  await browser?.close();
-  await server?.stop();
-});
+const kLongestMs = 8_000;
 
 interface Diagnostics {
   volcast: {
@@ -37,7 +22,7 @@ const kStages = ["wait", "upload", "draw", "readback", "encode", "queue", "decod
 /** Printed for the reader, not judged: a busy machine is no bug. */
 describe("latency", () => {
   it.each([512, 1024])("input to drawn at %s squared is measured", async (side) => {
-    const client = await Client.open(browser, server.url, {
+    const client = await place.open({
       viewport: { width: side + kPanel, height: side },
     });
     expect(await client.fact("size")).toBe(`${side}x${side}`);

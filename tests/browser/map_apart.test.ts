@@ -1,28 +1,18 @@
-import type { Browser } from "playwright-core";
-import { afterAll, beforeAll, describe, expect, it } from "vitest";
-import { Client, launch } from "./support/client";
+import { join } from "node:path";
+import { beforeAll, describe, expect, it } from "vitest";
+import type { Client } from "./support/client";
 import { difference, hashOf } from "./support/pixels";
-import { Server } from "./support/server";
+import { screenshotFolder } from "./support/server";
+import { setUp } from "./support/set_up";
 
-let server: Server;
-let browser: Browser;
+const place = setUp();
 let client: Client;
 
 beforeAll(async () => {
-  server = await Server.start();
-  browser = await launch();
-  client = await Client.open(browser, server.url, { viewport: { width: 1000, height: 900 } });
-  const row = client.page.locator('.dataset[data-dataset="demo:volume"]');
-  if ((await row.getAttribute("data-shown")) === null) {
-    await client.after(() => row.locator(".dataset-choose").click());
-  }
+  client = await place.open({ viewport: { width: 760, height: 900 } });
+  await client.choose("demo:volume");
   const volume = client.page.getByRole("radio", { name: /^Volume/ });
   if (!(await volume.isChecked())) await client.after(() => volume.check({ force: true }));
-});
-
-afterAll(async () => {
-  await browser?.close();
-  await server?.stop();
 });
 
 const picture = async (): Promise<string> => hashOf(await client.pixels());
@@ -54,10 +44,10 @@ describe("a map whose colours and opacities are edited apart", () => {
     const add = (y: number) =>
       client.after(() => client.page.mouse.dblclick(ground.x + 0.37 * ground.width, ground.y + y));
     await add(ground.height - 6);
-    expect(await points("Colour").count()).toBe(colours + 1);
-    expect(await points("Opacity").count()).toBe(opacities);
+    await expect.poll(() => points("Colour").count()).toBe(colours + 1);
+    await expect.poll(() => points("Opacity").count()).toBe(opacities);
     await add(6);
-    expect(await points("Opacity").count()).toBe(opacities + 1);
+    await expect.poll(() => points("Opacity").count()).toBe(opacities + 1);
     expect(difference(before, await client.pixels()).largest).toBeLessThanOrEqual(1);
 
     const seen = new Set([await picture()]);
@@ -79,11 +69,58 @@ describe("a map whose colours and opacities are edited apart", () => {
     const colours = await points("Colour").count();
     await client.page.reload();
     await client.settled();
-    expect(await points("Colour").count()).toBe(colours);
+    await expect.poll(() => points("Colour").count()).toBe(colours);
     expect(await picture()).toBe(before);
     await client.after(() => apart().uncheck());
-    expect(await points("Colour").count()).toBe(0);
+    await expect.poll(() => points("Colour").count()).toBe(0);
     expect(await picture()).toBe(before);
+    expect(client.complaints).toEqual([]);
+  });
+});
+
+describe("a smooth curve of opacities", () => {
+  const smooth = () => client.page.getByRole("checkbox", { name: /^Smooth opacity/ });
+  const chosen = () => points("Opacity").and(client.page.locator('[aria-pressed="true"]'));
+
+  it("has points of its own, and one that is added leaves the picture as it is to the bit", async () => {
+    await client.after(() => smooth().check());
+    expect(await apart().isChecked()).toBe(true);
+    expect(await apart().isDisabled()).toBe(true);
+    await client.page.locator(".map-plot").scrollIntoViewIfNeeded();
+    await client.after(() => drag("Opacity", 2, 0, -60));
+    await client.after(() => drag("Opacity", 3, 0, 50));
+    const before = await client.pixels();
+    const bent = await picture();
+    const count = await points("Opacity").count();
+    const colours = await points("Colour").count();
+    const ground = await client.page.locator(".map-ground").boundingBox();
+    if (!ground) throw new Error("the editor has no ground");
+    for (const [i, x] of [0.12, 0.4, 0.6, 0.87].entries()) {
+      const place = [ground.x + x * ground.width, ground.y + 8] as const;
+      await client.after(() => client.page.mouse.click(...place));
+      expect(await points("Opacity").count()).toBe(count + i + 1);
+      const added = await chosen().boundingBox();
+      expect(Math.abs((added?.x ?? 0) + (added?.width ?? 0) / 2 - place[0])).toBeLessThan(6);
+      expect(difference(before, await client.pixels()).largest).toBe(0);
+    }
+    expect(await points("Colour").count()).toBe(colours);
+    await client.page
+      .locator(".map-plot")
+      .screenshot({ path: join(screenshotFolder(), "map-smooth.png") });
+
+    await client.after(() => chosen().press("Delete"));
+    expect(await points("Opacity").count()).toBe(count + 3);
+    expect(await picture()).toBe(bent);
+    await client.after(() => drag("Opacity", 4, 0, -15));
+    const moved = await picture();
+    expect(moved).not.toBe(bent);
+    await client.page.reload();
+    await client.settled();
+    await client.page.locator(".map-plot").scrollIntoViewIfNeeded();
+    expect(await picture()).toBe(moved);
+    expect(await points("Opacity").count()).toBe(count + 3);
+    await client.after(() => smooth().uncheck());
+    expect(await apart().isDisabled()).toBe(false);
     expect(client.complaints).toEqual([]);
   });
 });

@@ -1,45 +1,35 @@
-import { mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
-import { tmpdir } from "node:os";
+import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
-import type { Browser } from "playwright-core";
-import { afterAll, beforeAll, describe, expect, it } from "vitest";
+import { beforeAll, describe, expect, it } from "vitest";
 import { decodeSrgb } from "../../web_client/src/transfer/srgb";
 import { violations } from "./support/accessibility";
-import { Client, launch } from "./support/client";
+import type { Client } from "./support/client";
 import { writeVoxels } from "./support/data";
 import { difference, hashOf, type Pixels } from "./support/pixels";
-import { Server, screenshotFolder } from "./support/server";
+import { screenshotFolder } from "./support/server";
+import { setUp } from "./support/set_up";
 
 /** Device pixels a CSS pixel. */
 const kScale = 2;
 /** ui/map_plot.ts: the plot's height, its upper margin, the margin at its sides, in CSS pixels. */
 const kPlot = { height: 136, top: 10, side: 10 };
 
-let folder: string;
-let server: Server;
-let browser: Browser;
+const place = setUp({ data: writeData });
 let client: Client;
 
-beforeAll(async () => {
-  mkdirSync(screenshotFolder(), { recursive: true });
-  folder = mkdtempSync(join(tmpdir(), "volcast-maps-"));
+function writeData(folder: string): void {
   writeVoxels(folder, "ramp", { size: [52, 12, 12], value: (x) => 5 * x });
   // As thick as the length that opacities are over, a tenth of the diagonal: t = sqrt(2 63^2 / 99).
   const spacing = [1, 1, Math.sqrt((2 * 63 ** 2) / 99) / 8] as const;
   const value = (x: number, y: number): number => (x + y === 0 ? 0 : x + y === 126 ? 255 : 128);
   writeVoxels(folder, "plate", { size: [64, 64, 9], spacing, value });
-  server = await Server.start({ data: folder });
-  browser = await launch();
-  client = await Client.open(browser, server.url, {
+}
+
+beforeAll(async () => {
+  client = await place.open({
     viewport: { width: 760, height: 320 },
     deviceScaleFactor: kScale,
   });
-});
-
-afterAll(async () => {
-  await browser?.close();
-  await server?.stop();
-  rmSync(folder, { recursive: true, force: true });
 });
 
 async function choose(name: string): Promise<void> {
@@ -91,7 +81,7 @@ async function columnOf(value: number, width: number): Promise<number> {
 }
 
 async function openMap(json: unknown): Promise<void> {
-  const path = join(folder, "opened.map.json");
+  const path = join(place.folder, "opened.map.json");
   writeFileSync(path, JSON.stringify(json));
   const files = client.page.locator(".map-files").first();
   if ((await files.getAttribute("open")) === null) await files.locator("summary").click();
@@ -206,20 +196,20 @@ describe("by hand", () => {
     const before = await client.pixels();
     const box = await ground();
     await client.after(() => client.page.mouse.click(box.x + 0.41 * box.width, box.y + 14));
-    expect(await points().count()).toBe(count + 1);
+    await expect.poll(() => points().count()).toBe(count + 1);
     await client.after(() => client.page.mouse.dblclick(box.x + 0.63 * box.width, box.y + 14));
-    expect(await points().count()).toBe(count + 2);
+    await expect.poll(() => points().count()).toBe(count + 2);
     // On the curve itself, where the second click meets the new point.
     const on = await selected().boundingBox();
     await client.after(() => client.page.keyboard.press("Control+z"));
     await client.after(() => client.page.mouse.dblclick((on?.x ?? 0) + 12, (on?.y ?? 0) + 12));
-    expect(await points().count()).toBe(count + 2);
+    await expect.poll(() => points().count()).toBe(count + 2);
     expect(difference(before, await client.pixels()).largest).toBe(0);
     await client.after(() => selected().dblclick());
-    expect(await points().count()).toBe(count + 1);
+    await expect.poll(() => points().count()).toBe(count + 1);
     await client.after(() => client.page.keyboard.press("Control+z"));
     await client.after(() => selected().click({ button: "middle" }));
-    expect(await points().count()).toBe(count + 1);
+    await expect.poll(() => points().count()).toBe(count + 1);
   });
 
   it("with a modifier a click gives the selected colour", async () => {
@@ -236,14 +226,14 @@ describe("by hand", () => {
     const count = await points().count();
     const last = points().nth(count - 1);
     await client.after(() => last.click({ modifiers: ["Alt"] }));
-    expect(await points().count()).toBe(count);
+    await expect.poll(() => points().count()).toBe(count);
     await last.focus();
     expect(await hex()).toBe(first);
   });
 
   it("a right click asks for another colour of the point", async () => {
     await points().nth(2).click({ button: "right" });
-    expect(await points().nth(2).getAttribute("aria-pressed")).toBe("true");
+    await expect.poll(() => points().nth(2).getAttribute("aria-pressed")).toBe("true");
     const colour = field("Colour");
     await expect.poll(() => colour.evaluate((e) => e === document.activeElement)).toBe(true);
     await client.page.keyboard.press("Escape");
@@ -330,7 +320,7 @@ describe("ready-made and from files", () => {
 describe("by touch", () => {
   it("a tap adds a point, two take it away", async () => {
     const options = { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true };
-    const phone = await Client.open(browser, server.url, options);
+    const phone = await place.open(options);
     await phone.after(() => phone.page.locator(".sheet-toggle").click());
     const ground = phone.page.locator(".map-ground").first();
     await ground.scrollIntoViewIfNeeded();
@@ -339,7 +329,7 @@ describe("by touch", () => {
     const all = phone.page.locator(".map-point");
     const count = await all.count();
     await phone.after(() => phone.page.touchscreen.tap(box.x + 0.44 * box.width, box.y + 14));
-    expect(await all.count()).toBe(count + 1);
+    await expect.poll(() => all.count()).toBe(count + 1);
     await phone.page.screenshot({ path: join(screenshotFolder(), "390-map.png") });
     expect(await violations(phone)).toEqual([]);
     await phone.close();

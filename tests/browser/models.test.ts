@@ -1,26 +1,14 @@
-import type { Browser } from "playwright-core";
-import { afterAll, beforeAll, describe, expect, it } from "vitest";
-import { Client, launch } from "./support/client";
+import { beforeAll, describe, expect, it } from "vitest";
+import type { Client } from "./support/client";
 import { difference, hashOf } from "./support/pixels";
-import { Server } from "./support/server";
+import { setUp } from "./support/set_up";
 
-let server: Server;
-let browser: Browser;
+const place = setUp();
 let client: Client;
 
 beforeAll(async () => {
-  server = await Server.start();
-  browser = await launch();
-  client = await Client.open(browser, server.url, { viewport: { width: 900, height: 900 } });
-  const row = client.page.locator('.dataset[data-dataset="demo:mesh"]');
-  if ((await row.getAttribute("data-shown")) === null) {
-    await client.after(() => row.locator(".dataset-choose").click());
-  }
-});
-
-afterAll(async () => {
-  await browser?.close();
-  await server?.stop();
+  client = await place.open({ viewport: { width: 760, height: 800 } });
+  await client.choose("demo:mesh");
 });
 
 const kModels = [
@@ -79,7 +67,7 @@ const undo = (): Promise<void> =>
 describe("ray models", () => {
   it("are all offered and all draw pictures of their own", async () => {
     const radios = client.page.getByRole("radiogroup", { name: "Ray model" }).getByRole("radio");
-    expect(await radios.count()).toBe(kModels.length);
+    await expect.poll(() => radios.count()).toBe(kModels.length);
     const seen = new Set<string>();
     for (const name of kModels) {
       await model(name);
@@ -111,7 +99,9 @@ describe("ray models", () => {
     await model("Surface");
     await client.page.getByRole("radio", { name: "Surface", exact: true }).focus();
     await client.after(() => client.page.keyboard.press("ArrowRight"));
-    expect(await client.page.getByRole("radio", { name: "Wireframe" }).isChecked()).toBe(true);
+    await expect
+      .poll(() => client.page.getByRole("radio", { name: "Wireframe" }).isChecked())
+      .toBe(true);
   });
 });
 
@@ -214,15 +204,17 @@ describe("accuracy", () => {
     await model("Volume");
     await client.page.getByText("By name").click();
     const choice = setting("Integrator");
-    expect(await choice.locator("option").allTextContents()).toEqual([
-      "As the wish asks",
-      "Average",
-      "Linear opacity",
-      "Psi, from a table",
-      "Psi, closed form",
-      "Pre-integrated",
-      "Exact",
-    ]);
+    await expect
+      .poll(() => choice.locator("option").allTextContents())
+      .toEqual([
+        "As the wish asks",
+        "Average",
+        "Linear opacity",
+        "Psi, from a table",
+        "Psi, closed form",
+        "Pre-integrated",
+        "Exact",
+      ]);
     for (const [label, name] of [
       ["Exact", "exact"],
       ["Average", "average"],
@@ -234,7 +226,7 @@ describe("accuracy", () => {
     await choose("Wish", "Exact");
     expect(await integrator()).toBe("exact");
     await model("X-ray");
-    expect(await choice.locator("option").count()).toBe(4);
+    await expect.poll(() => choice.locator("option").count()).toBe(4);
   });
 });
 
@@ -247,14 +239,16 @@ describe("what the server refuses", () => {
     const before = await picture();
     await type("Values", "");
     await note().waitFor();
-    expect(await note().textContent()).toContain("Levels: an isosurface needs at least one level.");
-    expect(await setting("Values").getAttribute("aria-invalid")).toBe("true");
+    await expect
+      .poll(() => note().textContent())
+      .toContain("Levels: an isosurface needs at least one level.");
+    await expect.poll(() => setting("Values").getAttribute("aria-invalid")).toBe("true");
     expect(await client.badge()).toBe("refused");
     // On a busy machine the browser may still be painting what was there before the refusal.
     await expect.poll(picture, { timeout: 20_000 }).toBe(before);
     await client.page.getByRole("button", { name: "Take back" }).click();
     await client.settled();
-    expect(await note().count()).toBe(0);
+    await expect.poll(() => note().count()).toBe(0);
     await expect.poll(picture, { timeout: 20_000 }).toBe(before);
   });
 
@@ -265,16 +259,18 @@ describe("what the server refuses", () => {
     await note().waitFor();
     await client.page.reload();
     await client.settled();
-    expect(await client.page.getByRole("radio", { name: "X-ray" }).isChecked()).toBe(true);
+    await expect
+      .poll(() => client.page.getByRole("radio", { name: "X-ray" }).isChecked())
+      .toBe(true);
     expect(await picture()).toBe(before);
     await type("Strength, times the map’s", "-1");
     await note().waitFor();
     await client.page.locator(".picture").focus();
     await client.page.keyboard.press("ArrowLeft");
     await client.page.keyboard.press("ArrowRight");
-    expect(await note().count()).toBe(1);
+    await expect.poll(() => note().count()).toBe(1);
     await client.after(() => type("Strength, times the map’s", "2"));
-    expect(await note().count()).toBe(0);
+    await expect.poll(() => note().count()).toBe(0);
     expect(await picture()).not.toBe(before);
     expect(client.complaints).toEqual([]);
   });
@@ -290,7 +286,7 @@ describe("a reload", () => {
     await client.page.reload();
     await client.settled();
     expect(await picture()).toBe(before);
-    expect(await setting("Levels").inputValue()).toBe("linear");
-    expect(await client.page.locator(".plane").count()).toBe(1);
+    await expect.poll(() => setting("Levels").inputValue()).toBe("linear");
+    await expect.poll(() => client.page.locator(".plane").count()).toBe(1);
   });
 });

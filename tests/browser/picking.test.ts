@@ -1,21 +1,12 @@
-import type { Browser } from "playwright-core";
-import { afterAll, beforeAll, describe, expect, it } from "vitest";
-import { Client, launch } from "./support/client";
-import { Server } from "./support/server";
+import { beforeAll, describe, expect, it } from "vitest";
+import type { Client } from "./support/client";
+import { setUp } from "./support/set_up";
 
-let server: Server;
-let browser: Browser;
+const place = setUp();
 let client: Client;
 
 beforeAll(async () => {
-  server = await Server.start();
-  browser = await launch();
-  client = await Client.open(browser, server.url, { viewport: { width: 1100, height: 800 } });
-});
-
-afterAll(async () => {
-  await browser?.close();
-  await server?.stop();
+  client = await place.open({ viewport: { width: 1100, height: 800 } });
 });
 
 /** On the data: the middle of the demo's plate is a hole. */
@@ -52,7 +43,7 @@ describe("a pointer that rests", () => {
     await client.page.mouse.down();
     await line.waitFor({ state: "detached" });
     await client.page.mouse.move(x + 30, y + 10, { steps: 5 });
-    expect(await line.count()).toBe(0);
+    await expect.poll(() => line.count()).toBe(0);
     await client.page.mouse.up();
     await client.page.mouse.move(x, y);
     await line.waitFor();
@@ -66,7 +57,7 @@ describe("the map's range", () => {
     await client.page.getByLabel("Low %").fill("20");
     await client.page.getByLabel("Low %").press("Enter");
     await client.after(() => client.page.getByRole("button", { name: "Auto range" }).click());
-    expect(await from.inputValue()).not.toBe(before);
+    await expect.poll(() => from.inputValue()).not.toBe(before);
     await client.after(async () => {
       await from.fill(before);
       await from.press("Enter");

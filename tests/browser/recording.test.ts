@@ -1,27 +1,19 @@
-import { mkdirSync, readFileSync } from "node:fs";
+import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { unzipSync } from "fflate";
-import type { Browser, Download } from "playwright-core";
-import { afterAll, beforeAll, describe, expect, it } from "vitest";
+import type { Download } from "playwright-core";
+import { beforeAll, describe, expect, it } from "vitest";
 import { violations } from "./support/accessibility";
-import { Client, launch } from "./support/client";
+import type { Client } from "./support/client";
 import { decodePng, difference, hashOf } from "./support/pixels";
-import { Server, screenshotFolder } from "./support/server";
+import { screenshotFolder } from "./support/server";
+import { setUp } from "./support/set_up";
 
-let server: Server;
-let browser: Browser;
+const place = setUp();
 let client: Client;
 
 beforeAll(async () => {
-  mkdirSync(screenshotFolder(), { recursive: true });
-  server = await Server.start();
-  browser = await launch();
-  client = await Client.open(browser, server.url, { viewport: { width: 760, height: 360 } });
-});
-
-afterAll(async () => {
-  await browser?.close();
-  await server?.stop();
+  client = await place.open({ viewport: { width: 760, height: 360 } });
 });
 
 async function ask(pictures: number, format: string): Promise<void> {
@@ -65,7 +57,7 @@ describe("a recorded turn", () => {
     const bytes = readFileSync(await download.path());
     const size = (await client.fact("size")).split("x").map(Number);
     // The page's own policy lets it load no media from elsewhere: an empty page plays it.
-    const page = await browser.newPage();
+    const page = await place.browser.newPage();
     const played = await page.evaluate(async (base64) => {
       const data = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
       const video = document.createElement("video");
@@ -92,7 +84,7 @@ describe("a recorded turn", () => {
     await client.after(() => stop.click());
     await client.page.locator(".recording").waitFor({ state: "detached" });
     expect(hashOf(await client.pixels())).toBe(before);
-    expect(await client.page.locator(".notice").count()).toBe(0);
+    await expect.poll(() => client.page.locator(".notice").count()).toBe(0);
   });
 });
 
@@ -107,14 +99,14 @@ describe("full screen", () => {
     expect(box?.width).toBe(await client.page.evaluate(() => innerWidth));
     await client.after(() => client.page.keyboard.press("f"));
     expect(await client.page.evaluate(() => document.fullscreenElement)).toBeNull();
-    expect(await panel.isVisible()).toBe(true);
+    await expect.poll(() => panel.isVisible()).toBe(true);
   });
 });
 
 describe("performance", () => {
   it("is shown by a key, measures what is drawn and goes away without a trace", async () => {
     const hud = client.page.locator(".hud");
-    expect(await hud.count()).toBe(0);
+    await expect.poll(() => hud.count()).toBe(0);
     await client.page.locator(".picture").focus();
     await client.page.keyboard.press("h");
     await hud.waitFor();
@@ -127,19 +119,19 @@ describe("performance", () => {
     const [, frames] = await row("Frames/s").locator("td").allTextContents();
     expect(Number(frames)).toBeGreaterThanOrEqual(0);
     const most = row("Bytes/s").locator("td").last();
-    expect(await most.textContent()).toMatch(/^\d.* (KB|MB|B)$/);
+    await expect.poll(() => most.textContent()).toMatch(/^\d.* (KB|MB|B)$/);
     const line = await row("Render").locator("polyline").getAttribute("points");
     expect(line?.split(" ").length).toBeGreaterThan(1);
     expect(await violations(client)).toEqual([]);
     await client.page.keyboard.press("h");
-    expect(await hud.count()).toBe(0);
+    await expect.poll(() => hud.count()).toBe(0);
   });
 
   it.each([
     ["1280", { viewport: { width: 1280, height: 800 } }],
     ["390", { viewport: { width: 390, height: 844 }, hasTouch: true }],
   ])("is photographed at %s pixels", async (name, options) => {
-    const other = await Client.open(browser, server.url, options);
+    const other = await place.open(options);
     await other.page.locator(".picture").focus();
     await other.page.keyboard.press("h");
     await other.page.locator(".hud").waitFor();

@@ -1,17 +1,14 @@
-import type { Browser } from "playwright-core";
-import { afterAll, beforeAll, describe, expect, it } from "vitest";
-import { Client, launch } from "./support/client";
+import { beforeAll, describe, expect, it } from "vitest";
+import type { Client } from "./support/client";
 import { hashOf } from "./support/pixels";
 import { Server } from "./support/server";
+import { setUp } from "./support/set_up";
 
-let server: Server;
-let browser: Browser;
+const place = setUp({ more: ["--frame-deadline-ms", "4000"] });
 let client: Client;
 
 beforeAll(async () => {
-  server = await Server.start({ more: ["--frame-deadline-ms", "4000"] });
-  browser = await launch();
-  client = await Client.open(browser, server.url, { viewport: { width: 900, height: 600 } });
+  client = await place.open({ viewport: { width: 760, height: 480 } });
   await client.page.evaluate(() => {
     const badge = document.querySelector<HTMLElement>(".badge");
     const seen: string[] = [];
@@ -20,11 +17,6 @@ beforeAll(async () => {
     const look = (): void => void seen.push(badge.dataset.state ?? "");
     new MutationObserver(look).observe(badge, { attributeFilter: ["data-state"] });
   });
-});
-
-afterAll(async () => {
-  await browser?.close();
-  await server?.stop();
 });
 
 const generation = async (): Promise<number> => Number(await client.fact("workerGeneration"));
@@ -50,7 +42,7 @@ describe("recovery", () => {
     await client.after(() => client.drag(110, -30));
     const before = hashOf(await client.pixels());
     const old = await generation();
-    const workers = server.workers();
+    const workers = place.server.workers();
     expect(workers.length).toBeGreaterThan(0);
     const killedAt = performance.now();
     for (const pid of workers) process.kill(pid, "SIGKILL");
@@ -69,7 +61,7 @@ describe("recovery", () => {
 
   it("survives a worker that stops answering", async () => {
     const old = await generation();
-    for (const pid of server.workers()) process.kill(pid, "SIGSTOP");
+    for (const pid of place.server.workers()) process.kill(pid, "SIGSTOP");
     await client.after(() => client.drag(50, 25));
     expect(await generation()).toBeGreaterThan(old);
   });
@@ -78,12 +70,12 @@ describe("recovery", () => {
     const density = client.page.getByRole("slider", { name: "Density" });
     if ((await density.count()) > 0) await client.after(() => density.fill("0.4"));
     const before = hashOf(await client.pixels());
-    const { port } = server;
-    await server.stop("SIGKILL");
+    const { port } = place.server;
+    await place.server.stop("SIGKILL");
     await client.waitForBadge("reconnecting");
     const label = await client.page.locator(".badge").textContent();
     expect(label).toMatch(/Reconnecting in \d+ s/);
-    server = await Server.start({ port });
+    place.server = await Server.start({ port });
     await client.page.waitForSelector('.badge[data-state="final"]', { timeout: 60_000 });
     expect(hashOf(await client.pixels())).toBe(before);
     expect(client.complaints).toEqual([]);

@@ -1,22 +1,13 @@
-import type { Browser } from "playwright-core";
-import { afterAll, beforeAll, describe, expect, it } from "vitest";
-import { Client, launch } from "./support/client";
+import { beforeAll, describe, expect, it } from "vitest";
+import type { Client } from "./support/client";
 import { difference, hashOf } from "./support/pixels";
-import { Server } from "./support/server";
+import { setUp } from "./support/set_up";
 
-let server: Server;
-let browser: Browser;
+const place = setUp();
 let client: Client;
 
 beforeAll(async () => {
-  server = await Server.start();
-  browser = await launch();
-  client = await Client.open(browser, server.url, { viewport: { width: 900, height: 900 } });
-});
-
-afterAll(async () => {
-  await browser?.close();
-  await server?.stop();
+  client = await place.open({ viewport: { width: 760, height: 900 } });
 });
 
 async function choose(dataset: string): Promise<void> {
@@ -61,7 +52,7 @@ describe("ray models", () => {
     });
     expect(new Set([lit, unlit, await picture()]).size).toBe(3);
     await model("Volume");
-    expect(await client.page.getByLabel("Headlight").count()).toBe(0);
+    await expect.poll(() => client.page.getByLabel("Headlight").count()).toBe(0);
   });
 
   it("of voxels are named ON and MAX", async () => {
@@ -141,7 +132,7 @@ describe("transfer function", () => {
       await opacity.press("Enter");
     });
     expect(await picture()).not.toBe(raised);
-    expect(await client.page.getByLabel("Opacity %").inputValue()).toBe("90");
+    await expect.poll(() => client.page.getByLabel("Opacity %").inputValue()).toBe("90");
     await client.page.locator(".picture").focus();
     await client.after(() => client.page.keyboard.press("Control+z"));
     await client.after(() => client.page.keyboard.press("Control+z"));

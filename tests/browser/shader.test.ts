@@ -1,27 +1,15 @@
-import type { Browser } from "playwright-core";
-import { afterAll, beforeAll, describe, expect, it } from "vitest";
-import { Client, launch } from "./support/client";
+import { beforeAll, describe, expect, it } from "vitest";
+import type { Client } from "./support/client";
 import { hashOf } from "./support/pixels";
-import { Server } from "./support/server";
+import { setUp } from "./support/set_up";
 
-let server: Server;
-let browser: Browser;
+const place = setUp();
 let client: Client;
 
 beforeAll(async () => {
-  server = await Server.start();
-  browser = await launch();
-  client = await Client.open(browser, server.url, { viewport: { width: 1000, height: 900 } });
-  const row = client.page.locator('.dataset[data-dataset="demo:volume"]');
-  if ((await row.getAttribute("data-shown")) === null) {
-    await client.after(() => row.locator(".dataset-choose").click());
-  }
+  client = await place.open({ viewport: { width: 760, height: 900 } });
+  await client.choose("demo:volume");
   await client.page.locator("section", { hasText: "Shader" }).locator("summary").click();
-});
-
-afterAll(async () => {
-  await browser?.close();
-  await server?.stop();
 });
 
 const kCode = `#uicontrol invlerp range
@@ -69,11 +57,11 @@ describe("the shader editor", () => {
     await client.page.reload();
     await client.settled();
     expect(await picture()).toBe(last);
-    expect(await client.page.getByLabel("turned").isChecked()).toBe(true);
+    await expect.poll(() => client.page.getByLabel("turned").isChecked()).toBe(true);
     await client.page.locator("section", { hasText: "Shader" }).locator("summary").click();
     await client.after(() => client.page.getByRole("button", { name: "Use the map" }).click());
     expect(await picture()).toBe(byMap);
-    expect(await editor().inputValue()).toBe(kCode);
+    await expect.poll(() => editor().inputValue()).toBe(kCode);
   });
 
   it("says by line what is wrong, and leaves the picture", async () => {
@@ -81,8 +69,8 @@ describe("the shader editor", () => {
     await editor().fill("void main() {\n  discard;\n}");
     await editor().press("Control+Enter");
     await complaints().first().waitFor();
-    expect(await complaints().first().innerText()).toMatch(/^Line 2/);
-    expect(await editor().getAttribute("aria-invalid")).toBe("true");
+    await expect.poll(() => complaints().first().innerText()).toMatch(/^Line 2/);
+    await expect.poll(() => editor().getAttribute("aria-invalid")).toBe("true");
     expect(await picture()).toBe(before);
     expect(client.complaints).toEqual([]);
   });
@@ -94,17 +82,17 @@ describe("the shader editor", () => {
     await editor().press("Control+Enter");
     const note = client.page.locator(".refusal");
     await note.waitFor();
-    expect(await note.innerText()).toMatch(/^Shader: line 2/);
+    await expect.poll(() => note.innerText()).toMatch(/^Shader: line 2/);
     await client.page.getByRole("button", { name: "Take back" }).click();
     await client.settled();
     await expect.poll(picture, { timeout: 20_000 }).toBe(before);
-    expect(await editor().inputValue()).toBe(wrong);
+    await expect.poll(() => editor().inputValue()).toBe(wrong);
   });
 
   it("indents with Tab, and is left with Shift+Tab", async () => {
     await editor().fill("");
     await editor().press("Tab");
-    expect(await editor().inputValue()).toBe("  ");
+    await expect.poll(() => editor().inputValue()).toBe("  ");
     await editor().press("Shift+Tab");
     expect(await editor().evaluate((e) => e === document.activeElement)).toBe(false);
   });
@@ -138,13 +126,13 @@ describe("the examples", () => {
     for (const name of names) {
       await examples().selectOption({ label: name });
       await client.after(() => editor().press("Control+Enter"));
-      expect(await complaints().count(), name).toBe(0);
+      await expect.poll(() => complaints().count(), { message: name }).toBe(0);
       seen.add(await picture());
     }
     // The tinted range begins as the colours' one does, for values of the demo: some may agree.
     expect(seen.size).toBeGreaterThanOrEqual(names.length - 1);
     await examples().selectOption({ label: "Back to your own code" });
-    expect(await editor().inputValue()).toBe(own);
+    await expect.poll(() => editor().inputValue()).toBe(own);
     expect(client.complaints).toEqual([]);
   });
 
@@ -172,10 +160,10 @@ describe("a transferFunction control", () => {
     await client.after(async () => {
       await client.page.mouse.dblclick(ground.x + ground.width * 0.6, ground.y + 20);
     });
-    expect(await points().count()).toBe(3);
+    await expect.poll(() => points().count()).toBe(3);
     expect(await picture(), "a new point changes nothing").toBe(declared);
     const middle = points().nth(1);
-    expect(await middle.getAttribute("aria-pressed")).toBe("true");
+    await expect.poll(() => middle.getAttribute("aria-pressed")).toBe("true");
     const seen = new Set([declared]);
     const steps = [
       async () => {

@@ -1,41 +1,14 @@
-import { mkdirSync } from "node:fs";
 import { join } from "node:path";
-import type { Browser, BrowserContextOptions } from "playwright-core";
-import { afterAll, afterEach, beforeAll, describe, expect, it } from "vitest";
+import { describe, expect, it } from "vitest";
 import { violations } from "./support/accessibility";
-import { Client, launch } from "./support/client";
+import type { Client } from "./support/client";
 import { hashOf } from "./support/pixels";
-import { Server, screenshotFolder } from "./support/server";
+import { screenshotFolder } from "./support/server";
+import { setUp } from "./support/set_up";
 
-const kWide = { viewport: { width: 1280, height: 800 } };
+const kWide = { viewport: { width: 1000, height: 600 } };
 
-let server: Server;
-let browser: Browser;
-const clients: Client[] = [];
-
-beforeAll(async () => {
-  server = await Server.start();
-  browser = await launch();
-  mkdirSync(screenshotFolder(), { recursive: true });
-});
-
-afterAll(async () => {
-  await browser?.close();
-  await server?.stop();
-});
-
-afterEach(async () => {
-  for (const client of clients.splice(0)) {
-    expect(client.complaints).toEqual([]);
-    await client.close();
-  }
-});
-
-async function open(options: BrowserContextOptions = kWide, url = server.url): Promise<Client> {
-  const client = await Client.open(browser, url, options);
-  clients.push(client);
-  return client;
-}
+const place = setUp({ page: kWide });
 
 /** The newest exact picture's input of each view. */
 const inputs = ({ page }: Client): Promise<number[]> =>
@@ -100,7 +73,7 @@ const picture = async (client: Client, view: number): Promise<string> =>
 
 describe("views side by side", () => {
   it("show the same, and move together", async () => {
-    const client = await open();
+    const client = await place.open();
     await addView(client, 2);
     const before = await picture(client, 0);
     expect(await picture(client, 1)).toBe(before);
@@ -112,13 +85,13 @@ describe("views side by side", () => {
   });
 
   it("have settings of their own, shown for the active one", async () => {
-    const client = await open();
+    const client = await place.open();
     await addView(client, 2);
     const radio = client.page.getByRole("radio", { name: "Maximum", exact: true });
     await change(client, 2, [1], () => radio.check({ force: true }));
     expect(await picture(client, 1)).not.toBe(await picture(client, 0));
     await client.page.getByRole("button", { name: /^1: / }).click();
-    expect(await radio.isChecked()).toBe(false);
+    await expect.poll(() => radio.isChecked()).toBe(false);
     const row = client.page.locator(".dataset:not([data-shown])").first();
     await change(client, 2, [0], () => row.locator(".dataset-choose").click());
     const other = await picture(client, 0);
@@ -127,7 +100,7 @@ describe("views side by side", () => {
   });
 
   it("move by themselves where cameras are apart", async () => {
-    const client = await open();
+    const client = await place.open();
     await addView(client, 2);
     await client.page.getByLabel("Cameras together").uncheck();
     const still = await picture(client, 0);
@@ -137,7 +110,7 @@ describe("views side by side", () => {
   });
 
   it("are reached and closed by keyboard", async () => {
-    const client = await open();
+    const client = await place.open();
     await addView(client, 2);
     const { page } = client;
     await page.getByLabel("Cameras together").uncheck();
@@ -150,12 +123,12 @@ describe("views side by side", () => {
     await close.focus();
     await page.keyboard.press("Enter");
     await page.locator(".pane-head").first().waitFor({ state: "detached" });
-    expect(await page.locator(".picture").count()).toBe(1);
+    await expect.poll(() => page.locator(".picture").count()).toBe(1);
     await client.settled();
   });
 
   it("stay over a reload, and open from the address", async () => {
-    const client = await open();
+    const client = await place.open();
     await addView(client, 2);
     const radio = client.page.getByRole("radio", { name: "Surface", exact: true });
     await change(client, 2, [1], () => radio.check({ force: true }));
@@ -163,23 +136,22 @@ describe("views side by side", () => {
     await client.page.getByLabel("Cameras together").uncheck();
     await client.page.waitForURL(/&apart$/);
     const before = [await picture(client, 0), await picture(client, 1)];
-    const other = await Client.visit(browser, client.page.url(), kWide);
-    clients.push(other);
+    const other = await place.visit({}, client.page.url());
     await allExact(other, 2);
     await client.page.reload();
     await allExact(client, 2);
     for (const page of [client, other]) {
       expect([await picture(page, 0), await picture(page, 1)]).toEqual(before);
-      expect(await page.page.getByLabel("Cameras together").isChecked()).toBe(false);
+      await expect.poll(() => page.page.getByLabel("Cameras together").isChecked()).toBe(false);
     }
   });
 
   it("are four at most", async () => {
-    const client = await open();
+    const client = await place.open();
     for (const count of [2, 3, 4]) await addView(client, count);
     const more = client.page.getByRole("button", { name: "Another view beside this one" });
-    expect(await more.getAttribute("aria-disabled")).toBe("true");
-    await client.page.screenshot({ path: join(screenshotFolder(), "1280-four-views.png") });
+    await expect.poll(() => more.getAttribute("aria-disabled")).toBe("true");
+    await client.page.screenshot({ path: join(screenshotFolder(), "1000-four-views.png") });
     await change(client, 4, [0, 1, 2, 3], () => dragIn(client, 3, 50, 0));
     const all = new Set<string>();
     for (let i = 0; i < 4; i += 1) all.add(await picture(client, i));
@@ -196,7 +168,7 @@ describe("views side by side", () => {
       isMobile: true,
     },
   ])("fit at $name, accessible and photographed", async ({ name, ...options }) => {
-    const client = await open(options);
+    const client = await place.open(options);
     await addView(client, 2);
     expect(await violations(client)).toEqual([]);
     await client.page.screenshot({ path: join(screenshotFolder(), `${name}-two-views.png`) });

@@ -1,32 +1,19 @@
-import { mkdirSync } from "node:fs";
 import { join } from "node:path";
-import type { Browser } from "playwright-core";
-import { afterAll, beforeAll, describe, expect, it } from "vitest";
+import { beforeAll, describe, expect, it } from "vitest";
 import { violations } from "./support/accessibility";
-import { Client, launch } from "./support/client";
+import type { Client } from "./support/client";
 import { hashOf } from "./support/pixels";
-import { Server, screenshotFolder } from "./support/server";
+import { screenshotFolder } from "./support/server";
+import { setUp } from "./support/set_up";
 
-let server: Server;
-let browser: Browser;
+const place = setUp();
 let client: Client;
 const kMeasuredMs = 90_000;
 
 beforeAll(async () => {
-  mkdirSync(screenshotFolder(), { recursive: true });
-  server = await Server.start();
-  browser = await launch();
-  client = await Client.open(browser, server.url, { viewport: { width: 1280, height: 900 } });
-  const row = client.page.locator('.dataset[data-dataset="demo:mesh"]');
-  if ((await row.getAttribute("data-shown")) === null) {
-    await client.after(() => row.locator(".dataset-choose").click());
-  }
+  client = await place.open({ viewport: { width: 760, height: 700 } });
+  await client.choose("demo:mesh");
   await slider().waitFor();
-});
-
-afterAll(async () => {
-  await browser?.close();
-  await server?.stop();
 });
 
 const slider = () => client.page.getByRole("slider", { name: "From fastest to exact" });
@@ -40,22 +27,22 @@ const source = (name: string) =>
 describe("the slider from fastest to exact", () => {
   it("knows the order of the ways, and estimates once it is reached for", async () => {
     await source("order");
-    expect(await slider().getAttribute("max")).toBe("5");
+    await expect.poll(() => slider().getAttribute("max")).toBe("5");
     expect(await said()).toBe("Exact");
     await slider().focus();
     await source("estimated");
     const status = client.page.locator(".accuracy-slider [role=status]");
-    expect(await status.textContent()).toMatch(/^Estimated/);
+    await expect.poll(() => status.textContent()).toMatch(/^Estimated/);
     expect(await said()).toMatch(/^Exact: .* ms, error at most .* \(1\/255\)$/);
     expect(await violations(client)).toEqual([]);
     await client.page.locator(".accuracy-slider").scrollIntoViewIfNeeded();
-    await client.page.screenshot({ path: join(screenshotFolder(), "slider-estimated-1280.png") });
+    await client.page.screenshot({ path: join(screenshotFolder(), "slider-estimated-760.png") });
   });
 
   it("draws by the way it stands at, with the keyboard", async () => {
     const exact = await picture();
     await client.after(() => slider().press("Home"));
-    expect(await slider().inputValue()).toBe("0");
+    await expect.poll(() => slider().inputValue()).toBe("0");
     const rough = await picture();
     expect(rough).not.toBe(exact);
     await client.after(() => slider().press("End"));
@@ -74,21 +61,43 @@ describe("the slider from fastest to exact", () => {
       .getByRole("button", { name: "Measure", exact: true })
       .waitFor({ timeout: kMeasuredMs });
     const front = await client.page.locator(".chart-point[data-front]").count();
-    expect(await slider().getAttribute("max")).toBe(String(front - 1));
+    await expect.poll(() => slider().getAttribute("max")).toBe(String(front - 1));
     await slider().press("End");
     await client.after(() => slider().press("Home"));
     const pressed = client.page.locator('.chart-point[aria-pressed="true"]');
-    expect(await pressed.count()).toBe(1);
-    expect(await pressed.getAttribute("data-front")).toBe("");
+    await expect.poll(() => pressed.count()).toBe(1);
+    await expect.poll(() => pressed.getAttribute("data-front")).toBe("");
     const way = (await said()).split(":")[0] ?? "";
-    expect(await pressed.getAttribute("aria-label")).toContain(`${way}: `);
+    await expect.poll(() => pressed.getAttribute("aria-label")).toContain(`${way}: `);
     expect(await violations(client)).toEqual([]);
   });
 
   it("leaves the choice to the wish again", async () => {
     const automatic = client.page.getByRole("button", { name: "As the wish asks", exact: true });
     await client.after(() => automatic.click());
-    expect(await automatic.count()).toBe(0);
+    await expect.poll(() => automatic.count()).toBe(0);
+  });
+
+  it("has times of voxels too, once it is reached for", async () => {
+    await client.choose("demo:volume");
+    const volume = client.page.getByRole("radio", { name: /^Volume/ });
+    if (!(await volume.isChecked())) await client.after(() => volume.check({ force: true }));
+    await slider().blur();
+    await slider().focus();
+    await source("estimated");
+    const last = Number(await slider().getAttribute("max"));
+    expect(last).toBeGreaterThan(0);
+    const times: number[] = [];
+    for (let stop = 0; stop <= last; stop += 1) {
+      if (stop === 0) await client.after(() => slider().press("Home"));
+      else await client.after(() => slider().press("ArrowRight"));
+      await expect.poll(said).toMatch(/: [\d.]+ ms, error at most/);
+      times.push(Number(/: ([\d.]+) ms/.exec(await said())?.[1]));
+    }
+    expect(times.every((ms) => ms > 0)).toBe(true);
+    console.info(`predicted ms of voxels, fastest first: ${times.join(", ")}`);
+    await client.page.screenshot({ path: join(screenshotFolder(), "slider-voxels-760.png") });
+    await client.choose("demo:mesh");
   });
 
   it.each([

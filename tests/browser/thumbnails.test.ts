@@ -1,29 +1,16 @@
-import { mkdirSync } from "node:fs";
 import { join } from "node:path";
-import type { Browser } from "playwright-core";
-import { afterAll, beforeAll, describe, expect, it } from "vitest";
+import { beforeAll, describe, expect, it } from "vitest";
 import { violations } from "./support/accessibility";
-import { Client, launch } from "./support/client";
-import { Server, screenshotFolder } from "./support/server";
+import type { Client } from "./support/client";
+import { screenshotFolder } from "./support/server";
+import { setUp } from "./support/set_up";
 
-let server: Server;
-let browser: Browser;
+const place = setUp();
 let client: Client;
 
 beforeAll(async () => {
-  mkdirSync(screenshotFolder(), { recursive: true });
-  server = await Server.start();
-  browser = await launch();
-  client = await Client.open(browser, server.url, { viewport: { width: 1280, height: 900 } });
-  const row = client.page.locator('.dataset[data-dataset="demo:mesh"]');
-  if ((await row.getAttribute("data-shown")) === null) {
-    await client.after(() => row.locator(".dataset-choose").click());
-  }
-});
-
-afterAll(async () => {
-  await browser?.close();
-  await server?.stop();
+  client = await place.open({ viewport: { width: 760, height: 900 } });
+  await client.choose("demo:mesh");
 });
 
 const thumbs = () => client.page.locator(".model-thumb canvas");
@@ -52,14 +39,14 @@ const pictures = (): Promise<string[]> =>
 
 describe("thumbnails of the ray models", () => {
   it("are there once they are asked for, one for each model, all different", async () => {
-    expect(await thumbs().count()).toBe(0);
+    await expect.poll(() => thumbs().count()).toBe(0);
     await client.page.getByRole("button", { name: "Pictures" }).click();
     await drawn(1);
     const models = await client.page.getByRole("radio").count();
-    expect(await thumbs().count()).toBe(models);
+    await expect.poll(() => thumbs().count()).toBe(models);
     expect(new Set(await pictures()).size).toBe(models);
     expect(await violations(client)).toEqual([]);
-    await client.page.screenshot({ path: join(screenshotFolder(), "thumbnails-1280.png") });
+    await client.page.screenshot({ path: join(screenshotFolder(), "thumbnails-760.png") });
   });
 
   it("follow the camera when it has come to rest", async () => {
@@ -97,7 +84,7 @@ describe("thumbnails of the ray models", () => {
     await client.page.screenshot({ path: join(screenshotFolder(), "thumbnails-390.png") });
     expect(await violations(client)).toEqual([]);
     await client.page.getByRole("button", { name: "Pictures" }).click();
-    expect(await thumbs().count()).toBe(0);
+    await expect.poll(() => thumbs().count()).toBe(0);
     expect(client.complaints).toEqual([]);
   });
 });

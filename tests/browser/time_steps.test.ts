@@ -1,12 +1,11 @@
-import { mkdirSync, mkdtempSync, rmSync, writeFileSync } from "node:fs";
-import { tmpdir } from "node:os";
+import { writeFileSync } from "node:fs";
 import { join } from "node:path";
-import type { Browser } from "playwright-core";
-import { afterAll, beforeAll, describe, expect, it } from "vitest";
+import { beforeAll, describe, expect, it } from "vitest";
 import { violations } from "./support/accessibility";
-import { Client, launch } from "./support/client";
+import type { Client } from "./support/client";
 import { hashOf } from "./support/pixels";
-import { Server, screenshotFolder } from "./support/server";
+import { screenshotFolder } from "./support/server";
+import { setUp } from "./support/set_up";
 
 const kSide = 6;
 const kSteps = 4;
@@ -63,24 +62,11 @@ function writeSteps(path: string): void {
   );
 }
 
-let folder: string;
-let server: Server;
-let browser: Browser;
+const place = setUp({ data: (folder) => writeSteps(join(folder, "heat.xdmf")) });
 let client: Client;
 
 beforeAll(async () => {
-  mkdirSync(screenshotFolder(), { recursive: true });
-  folder = mkdtempSync(join(tmpdir(), "volcast-steps-"));
-  writeSteps(join(folder, "heat.xdmf"));
-  server = await Server.start({ data: folder });
-  browser = await launch();
-  client = await Client.open(browser, server.url, { viewport: { width: 1000, height: 900 } });
-});
-
-afterAll(async () => {
-  await browser?.close();
-  await server?.stop();
-  rmSync(folder, { recursive: true, force: true });
+  client = await place.open({ viewport: { width: 760, height: 700 } });
 });
 
 const slider = () => client.page.getByRole("slider", { name: "Time step" });

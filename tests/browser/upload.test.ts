@@ -1,40 +1,30 @@
-import { mkdirSync, mkdtempSync, readdirSync, rmSync } from "node:fs";
+import { mkdtempSync, readdirSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
-import type { Browser } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import { violations } from "./support/accessibility";
-import { Client, launch } from "./support/client";
+import type { Client } from "./support/client";
 import { writeBall } from "./support/data";
 import { countColours } from "./support/pixels";
 import { Server, screenshotFolder } from "./support/server";
+import { setUp } from "./support/set_up";
 
-let served: string;
 let mine: string;
-let server: Server;
-let browser: Browser;
+const place = setUp({
+  data: (folder) => writeBall(folder, "first", 8),
+  more: ["--allow-uploads", "--max-upload-mb", "2", "--upload-keep-free-mb", "1"],
+});
 let client: Client;
 let other: Client;
 
 beforeAll(async () => {
-  mkdirSync(screenshotFolder(), { recursive: true });
-  served = mkdtempSync(join(tmpdir(), "volcast-served-"));
   mine = mkdtempSync(join(tmpdir(), "volcast-mine-"));
-  writeBall(served, "first", 8);
   writeBall(mine, "ball", 12);
-  const more = ["--allow-uploads", "--max-upload-mb", "2", "--upload-keep-free-mb", "1"];
-  server = await Server.start({ data: served, more });
-  browser = await launch();
-  client = await Client.open(browser, server.url);
-  other = await Client.open(browser, server.url);
+  client = await place.open();
+  other = await place.open();
 });
 
-afterAll(async () => {
-  await browser?.close();
-  await server?.stop();
-  rmSync(served, { recursive: true, force: true });
-  rmSync(mine, { recursive: true, force: true });
-});
+afterAll(() => rmSync(mine, { recursive: true, force: true }));
 
 /** 4 x 4 pixels of grey in four steps. */
 const kGreyPng =
@@ -67,7 +57,7 @@ describe("uploading", () => {
     });
     expect(countColours(await client.pixels(), 32)).toBe(32);
     await row(other, "uploads/ball/ball.mhd").waitFor();
-    expect(await client.page.locator(".upload").count()).toBe(0);
+    await expect.poll(() => client.page.locator(".upload").count()).toBe(0);
     expect(await violations(client)).toEqual([]);
     await client.page.screenshot({ path: join(screenshotFolder(), "1280-upload.png") });
   });
@@ -75,17 +65,21 @@ describe("uploading", () => {
   it("says what the server cannot read, and leaves nothing there", async () => {
     await input().setInputFiles({ name: "letter.doc", mimeType: "", buffer: Buffer.from("Dear") });
     await refusal().waitFor();
-    expect(await refusal().innerText()).toMatch(/letter was not taken: none of the 1 files/);
+    await expect
+      .poll(() => refusal().innerText())
+      .toMatch(/letter was not taken: none of the 1 files/);
     expect(await violations(client)).toEqual([]);
-    await expect.poll(() => readdirSync(join(served, "uploads"))).toEqual(["ball"]);
+    await expect.poll(() => readdirSync(join(place.folder, "uploads"))).toEqual(["ball"]);
     await client.page.getByRole("button", { name: "Hide" }).click();
-    expect(await refusal().count()).toBe(0);
+    await expect.poll(() => refusal().count()).toBe(0);
   });
 
   it("takes a drop anywhere on the window; what is too large or empty is not even sent", async () => {
     await drop([["large.raw", 3 << 20]]);
     await refusal().waitFor();
-    expect(await refusal().innerText()).toMatch(/3\.0 MB; this server takes 2\.0 MB at once/);
+    await expect
+      .poll(() => refusal().innerText())
+      .toMatch(/3\.0 MB; this server takes 2\.0 MB at once/);
     await drop([["empty.vtu", 0]]);
     await expect.poll(() => refusal().innerText()).toMatch(/empty\.vtu is empty/);
     await drop([
@@ -94,7 +88,7 @@ describe("uploading", () => {
     ]);
     const error = row(client, "uploads/cut/cut.mhd").locator(".dataset-error");
     await error.waitFor({ timeout: 60_000 });
-    expect(await error.innerText()).toContain("cut.mhd");
+    await expect.poll(() => error.innerText()).toContain("cut.mhd");
     expect(client.complaints).toEqual([]);
   });
 
@@ -121,7 +115,7 @@ describe("uploading", () => {
     const fast = { ...slow, uploadThroughput: -1 };
     await devtools.send("Network.emulateNetworkConditions", fast);
     await expect
-      .poll(() => readdirSync(join(served, "uploads")).filter((n) => n.startsWith(".")))
+      .poll(() => readdirSync(join(place.folder, "uploads")).filter((n) => n.startsWith(".")))
       .toEqual([]);
     expect(client.complaints).toEqual([]);
   });
@@ -136,15 +130,15 @@ describe("uploading", () => {
       await input().setInputFiles(pictures);
       await row(client, "uploads/slice").and(client.page.locator("[data-shown]")).waitFor();
     });
-    expect(await row(client, "uploads/slice").innerText()).toContain("× 3");
+    await expect.poll(() => row(client, "uploads/slice").innerText()).toContain("× 3");
   });
 });
 
 describe("a server that takes no uploads", () => {
   it("offers none, and says so to who drops files", async () => {
     const plain = await Server.start();
-    const visitor = await Client.open(browser, plain.url);
-    expect(await visitor.page.locator(".upload-button").count()).toBe(0);
+    const visitor = await place.open({}, plain.url);
+    await expect.poll(() => visitor.page.locator(".upload-button").count()).toBe(0);
     const transfer = await visitor.page.evaluateHandle(() => {
       const data = new DataTransfer();
       data.items.add(new File(["x"], "a.vtu"));

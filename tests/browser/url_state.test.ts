@@ -1,40 +1,17 @@
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
-import type { Browser } from "playwright-core";
-import { afterAll, afterEach, beforeAll, describe, expect, it } from "vitest";
-import { Client, launch } from "./support/client";
+import { afterAll, beforeAll, describe, expect, it } from "vitest";
+import type { Client } from "./support/client";
 import { hashOf } from "./support/pixels";
 import { Server } from "./support/server";
+import { setUp } from "./support/set_up";
 
-const kSize = { viewport: { width: 900, height: 600 } };
+const kSize = { viewport: { width: 760, height: 480 } };
 
-let server: Server;
-let browser: Browser;
-const clients: Client[] = [];
+const place = setUp({ page: kSize });
 
-beforeAll(async () => {
-  server = await Server.start();
-  browser = await launch();
-});
-
-afterAll(async () => {
-  await browser?.close();
-  await server?.stop();
-});
-
-afterEach(async () => {
-  for (const client of clients.splice(0)) {
-    expect(client.complaints).toEqual([]);
-    await client.close();
-  }
-});
-
-async function open(url = server.url): Promise<Client> {
-  const client = await Client.open(browser, url, kSize);
-  clients.push(client);
-  return client;
-}
+const open = (url = place.url): Promise<Client> => place.open({}, url);
 
 const picture = async (client: Client): Promise<string> => hashOf(await client.pixels());
 
@@ -62,7 +39,9 @@ describe("the address", () => {
     console.info(`a view with its camera and map: an address of ${url.length} letters`);
     const other = await open(url);
     expect(await picture(other)).toBe(await picture(client));
-    expect(await other.page.getByRole("radio", { name: "Maximum" }).isChecked()).toBe(true);
+    await expect
+      .poll(() => other.page.getByRole("radio", { name: "Maximum" }).isChecked())
+      .toBe(true);
     await other.after(() => other.page.keyboard.press("r"));
     await client.after(() => client.page.keyboard.press("r"));
     expect(await picture(other)).toBe(await picture(client));
@@ -84,7 +63,9 @@ describe("the address", () => {
     const surface = await picture(client);
     await client.after(async () => void (await client.page.goBack()));
     expect(await picture(client)).toBe(moved);
-    expect(await client.page.getByRole("radio", { name: "Maximum" }).isChecked()).toBe(true);
+    await expect
+      .poll(() => client.page.getByRole("radio", { name: "Maximum" }).isChecked())
+      .toBe(true);
     await client.after(async () => void (await client.page.goForward()));
     expect(await picture(client)).toBe(surface);
     await client.after(() => client.page.getByRole("button", { name: "Undo" }).click());
@@ -127,16 +108,12 @@ describe("the address", () => {
   });
 
   it("that cannot be read is said, and so is data that is not there", async () => {
-    const odd = await open(`${server.url}#view=zAAAA`);
+    const odd = await open(`${place.url}#view=zAAAA`);
     await odd.page.locator(".notice", { hasText: "cannot be read" }).waitFor();
     const client = await open();
     await client.page.waitForURL(/#view=/);
     const data = await Server.start({ data: mkdtempSync(join(tmpdir(), "volcast-empty-")) });
-    const lost = await Client.visit(
-      browser,
-      client.page.url().replace(server.url, data.url),
-      kSize,
-    );
+    const lost = await place.visit({}, client.page.url().replace(place.url, data.url));
     await lost.page.locator(".notice").first().waitFor();
     await lost.close();
     await data.stop();
@@ -192,6 +169,38 @@ describe("a saved scene", () => {
     expect(await picture(other)).toBe(before);
     await other.after(() => other.drag(10, 0));
     expect(await picture(other)).not.toBe(before);
+  });
+
+  it("brings back how its map was edited, as the address does", async () => {
+    const client = await open();
+    await client.after(() => client.page.getByLabel(/^Smooth opacity/).check());
+    await client.page.locator(".map-ground").scrollIntoViewIfNeeded();
+    const ground = await client.page.locator(".map-ground").boundingBox();
+    await client.after(() =>
+      client.page.mouse.click((ground?.x ?? 0) + 0.4 * (ground?.width ?? 0), (ground?.y ?? 0) + 8),
+    );
+    const added = client.page.getByRole("button", { name: /^Opacity point 3 of/ });
+    await client.after(() => added.press("ArrowUp"));
+    await client.after(() =>
+      untilAddressed(client, () =>
+        client.page.getByRole("slider", { name: /^Density/ }).fill("0.5"),
+      ),
+    );
+    const count = await client.page.locator(".map-point").count();
+    const before = await picture(client);
+    await share(client);
+    const download = client.page.waitForEvent("download");
+    await client.page.getByRole("button", { name: "Save the scene" }).click();
+    const path = join(folder, "edited.json");
+    await (await download).saveAs(path);
+    const other = await open();
+    await other.after(() => load(other, path));
+    for (const one of [other, await open(client.page.url())]) {
+      expect(await picture(one)).toBe(before);
+      expect(await one.page.getByLabel(/^Smooth opacity/).isChecked()).toBe(true);
+      expect(await one.page.getByRole("slider", { name: /^Density/ }).inputValue()).toBe("0.5");
+      expect(await one.page.locator(".map-point").count()).toBe(count);
+    }
   });
 
   it("that is none is refused with the reason, and nothing changes", async () => {

@@ -1,14 +1,12 @@
-import { mkdirSync } from "node:fs";
 import { join } from "node:path";
-import type { Browser } from "playwright-core";
-import { afterAll, beforeAll, beforeEach, describe, expect, it } from "vitest";
+import { beforeAll, beforeEach, describe, expect, it } from "vitest";
 import { violations } from "./support/accessibility";
-import { Client, launch } from "./support/client";
+import type { Client } from "./support/client";
 import { hashOf, type Pixels } from "./support/pixels";
-import { Server, screenshotFolder } from "./support/server";
+import { screenshotFolder } from "./support/server";
+import { setUp } from "./support/set_up";
 
-let server: Server;
-let browser: Browser;
+const place = setUp();
 let client: Client;
 let home: string;
 
@@ -17,19 +15,11 @@ const press = (key: string): Promise<void> => client.after(() => client.page.key
 const menu = () => client.page.getByRole("button", { name: "View", exact: true });
 
 beforeAll(async () => {
-  mkdirSync(screenshotFolder(), { recursive: true });
-  server = await Server.start();
-  browser = await launch();
-  client = await Client.open(browser, server.url, { viewport: { width: 860, height: 420 } });
+  client = await place.open({ viewport: { width: 860, height: 420 } });
   await client.after(() =>
     client.page.getByRole("radio", { name: "Surface", exact: true }).check({ force: true }),
   );
   home = await picture();
-});
-
-afterAll(async () => {
-  await browser?.close();
-  await server?.stop();
 });
 
 /** Every test starts from the first camera, with the picture focused. */
@@ -156,7 +146,7 @@ describe("over the picture", () => {
     }
     if (flat) await client.page.screenshot({ path: join(screenshotFolder(), "box-860.png") });
     await client.page.keyboard.press("b");
-    expect(await box().count()).toBe(0);
+    await expect.poll(() => box().count()).toBe(0);
   });
 
   it("the scale bar is as long as what it is laid on", async () => {
@@ -174,7 +164,9 @@ describe("over the picture", () => {
     // Positions are shown with five digits.
     expect((length / (line?.width ?? 0)) * 200).toBeCloseTo(world, 2);
     await press("p");
-    expect(await client.page.locator(".scale-bar").textContent()).toContain("at the centre");
+    await expect
+      .poll(() => client.page.locator(".scale-bar").textContent())
+      .toContain("at the centre");
   });
 
   it("the legend shows the map that is drawn", async () => {
@@ -204,11 +196,11 @@ describe("over the picture", () => {
       await client.page.getByLabel(name).focus();
       await client.page.keyboard.press("Space");
     }
-    expect(await client.page.locator(".overlay").count()).toBe(0);
+    await expect.poll(() => client.page.locator(".overlay").count()).toBe(0);
     expect(await violations(client)).toEqual([]);
     await client.page.reload();
     await client.settled();
-    expect(await client.page.locator(".overlay").count()).toBe(0);
+    await expect.poll(() => client.page.locator(".overlay").count()).toBe(0);
     await menu().click();
     for (const name of ["Orientation axes", "Scale bar", /^Legend/]) {
       await client.page.getByLabel(name).check();
@@ -227,7 +219,7 @@ describe("looks", () => {
       { viewport: { width: 390, height: 844 }, hasTouch: true, colorScheme: "dark" as const },
     ],
   ])("%s pixels wide, with everything shown", async (name, options) => {
-    const other = await Client.open(browser, server.url, options);
+    const other = await place.open(options);
     const shot = (what: string): Promise<Buffer> =>
       other.page.screenshot({ path: join(screenshotFolder(), `viewport-${name}${what}.png`) });
     await other.page.locator(".picture").focus();

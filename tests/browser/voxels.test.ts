@@ -1,26 +1,14 @@
-import type { Browser } from "playwright-core";
-import { afterAll, beforeAll, describe, expect, it } from "vitest";
-import { Client, launch } from "./support/client";
+import { beforeAll, describe, expect, it } from "vitest";
+import type { Client } from "./support/client";
 import { hashOf } from "./support/pixels";
-import { Server } from "./support/server";
+import { setUp } from "./support/set_up";
 
-let server: Server;
-let browser: Browser;
+const place = setUp();
 let client: Client;
 
 beforeAll(async () => {
-  server = await Server.start();
-  browser = await launch();
-  client = await Client.open(browser, server.url, { viewport: { width: 800, height: 700 } });
-  const row = client.page.locator('.dataset[data-dataset="demo:volume"]');
-  if ((await row.getAttribute("data-shown")) === null) {
-    await client.after(() => row.locator(".dataset-choose").click());
-  }
-});
-
-afterAll(async () => {
-  await browser?.close();
-  await server?.stop();
+  client = await place.open({ viewport: { width: 760, height: 400 } });
+  await client.choose("demo:volume");
 });
 
 const picture = async (): Promise<string> => hashOf(await client.pixels());
@@ -78,7 +66,7 @@ describe("a volume of voxels", () => {
       () => choose("Samples", "By their number"),
     ]);
     const samples = client.page.getByRole("textbox", { name: "Samples over the depth" });
-    expect(await samples.inputValue()).toBe("64");
+    await expect.poll(() => samples.inputValue()).toBe("64");
     await client.after(() => choose("Drawn by", "Whatever is faster"));
     await client.after(() => choose("Samples", "Half a voxel apart"));
     expect(await picture()).toBe(plain);
@@ -92,7 +80,7 @@ describe("a volume of voxels", () => {
     await client.after(() => type("Error, in 1/255", "0.5"));
     await client.after(() => choose("Wish", "Time at most"));
     await client.after(() => type("Time, ms a picture", "2000"));
-    expect(await client.page.locator(".refusal").count()).toBe(0);
+    await expect.poll(() => client.page.locator(".refusal").count()).toBe(0);
     await client.after(() => choose("Wish", "Fastest"));
     expect(await picture()).toBe(fastest);
     await client.after(() => choose("Wish", "Automatic"));
@@ -103,7 +91,7 @@ describe("a volume of voxels", () => {
     const labels = await choice.locator("option").allTextContents();
     expect(labels).toHaveLength(7);
     for (const label of labels.slice(1)) await client.after(() => choose("Integrator", label));
-    expect(await client.page.locator(".refusal").count()).toBe(0);
+    await expect.poll(() => client.page.locator(".refusal").count()).toBe(0);
     await client.after(() => choose("Integrator", "As the wish asks"));
   });
 
@@ -131,7 +119,7 @@ describe("a volume of voxels", () => {
       () => check("Y", false),
       () => check("X", false),
     ]);
-    expect(await client.page.getByRole("slider", { name: "At X" }).count()).toBe(0);
+    await expect.poll(() => client.page.getByRole("slider", { name: "At X" }).count()).toBe(0);
     expect(client.complaints).toEqual([]);
   });
 });

@@ -27,8 +27,10 @@ import {
 import { needsComparison } from "./state/difference";
 import type { ViewDocument } from "./state/document";
 import { followCamera, followScene, joinScene } from "./state/follow";
+import { followIdle } from "./state/idle_measure";
 import { atRest, followThumbnails, ThumbnailKeeper, thumbnailSize } from "./state/model_thumbnails";
 import { whyNotSteering } from "./state/people";
+import { followPins } from "./state/pins";
 import { codeToDescribe } from "./state/shader_actions";
 import { followShownOrbit } from "./state/shown_orbit";
 import { followTime } from "./state/time_steps";
@@ -113,9 +115,9 @@ export function openPane(page: PanePort, beginning: PaneBeginning): Pane {
         page.opened();
         if (state.orbit.value !== state.home.value) conversation.mark("camera");
       },
-      joined(scene) {
+      joined(scene, edit) {
         thumbnails.lost();
-        adopt(() => joinScene(state, scene));
+        adopt(() => joinScene(state, scene, edit));
         shownOrbit.opened();
       },
       restored(document) {
@@ -253,6 +255,15 @@ export function openPane(page: PanePort, beginning: PaneBeginning): Pane {
       now: () => performance.now(),
       after: (ms, run) => void setTimeout(run, ms),
     }),
+    followPins(state, (pins) => questions.setPins(pins)),
+    followIdle(state, {
+      measure: () => questions.measure("measured"),
+      stop: () => questions.stopMeasuring(),
+      after(ms, run) {
+        const timer = setTimeout(run, ms);
+        return () => clearTimeout(timer);
+      },
+    }),
     effect(() => {
       if (needsComparison(state)) untracked(() => questions.compare());
     }),
@@ -295,8 +306,8 @@ export function openPane(page: PanePort, beginning: PaneBeginning): Pane {
     leave: () => conversation.leave(),
     saveScene: () => saveScene(state),
     async loadScene(file) {
-      const scene = await loadedScene(state, file);
-      if (scene) conversation.open(wishForScene(scene));
+      const saved = await loadedScene(state, file);
+      if (saved) conversation.open(wishForScene(saved.scene, saved.edit));
     },
   };
 

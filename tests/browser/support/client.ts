@@ -1,16 +1,8 @@
-import { type Browser, type BrowserContextOptions, chromium, type Page } from "playwright-core";
+import type { Browser, BrowserContextOptions, Page } from "playwright-core";
 import { decodeFrame, type Frame, isFrame } from "../../../web_client/src/net/framing";
 import { decodePng, type Pixels } from "./pixels";
 
-const kChromium = process.env.CHROMIUM_BIN ?? "/usr/bin/chromium";
 const kPatienceMs = 60_000;
-
-/** Colours as they are in the picture: no colour profile between page and screenshot. */
-export function launch(more: readonly string[] = []): Promise<Browser> {
-  const sandbox = process.getuid?.() === 0 ? ["--no-sandbox"] : [];
-  const args = [...sandbox, "--force-color-profile=srgb", ...more];
-  return chromium.launch({ executablePath: kChromium, headless: true, args });
-}
 
 /** The client in a page of its own, and all that the server sent to it. */
 export class Client {
@@ -54,7 +46,7 @@ export class Client {
     options: BrowserContextOptions = {},
   ): Promise<Client> {
     const context = await browser.newContext({
-      viewport: { width: 1280, height: 800 },
+      viewport: { width: 1000, height: 600 },
       ...options,
     });
     const client = new Client(await context.newPage());
@@ -121,6 +113,13 @@ export class Client {
     const before = Number(await this.fact("inputSeq"));
     await act();
     await this.settled(before);
+  }
+
+  /** Shows a dataset, if it is not shown. */
+  async choose(dataset: string): Promise<void> {
+    const row = this.page.locator(`.dataset[data-dataset="${dataset}"]`);
+    if ((await row.getAttribute("data-shown")) !== null) return;
+    await this.after(() => row.locator(".dataset-choose").click());
   }
 
   /** What is on the screen where a view's picture is: composited, in device pixels. */

@@ -17,16 +17,21 @@ function paeth(a: number, b: number, c: number): number {
 }
 
 /** Undoes PNG's row filters in place (PNG specification, section 9). */
-function unfilter(raw: Buffer, rows: number, rowBytes: number, pixelBytes: number): void {
+function unfilter(raw: Uint8Array, rows: number, rowBytes: number, pixelBytes: number): void {
   for (let y = 0; y < rows; y += 1) {
     const at = y * (rowBytes + 1);
     const filter = raw[at] ?? 0;
+    if (filter === 0) continue;
     for (let i = 0; i < rowBytes; i += 1) {
       const here = at + 1 + i;
       const left = i >= pixelBytes ? (raw[here - pixelBytes] ?? 0) : 0;
       const up = y > 0 ? (raw[here - rowBytes - 1] ?? 0) : 0;
       const corner = y > 0 && i >= pixelBytes ? (raw[here - rowBytes - 1 - pixelBytes] ?? 0) : 0;
-      const guess = [0, left, up, (left + up) >> 1, paeth(left, up, corner)][filter] ?? 0;
+      let guess = 0; // No list of all five: this runs for every byte.
+      if (filter === 1) guess = left;
+      else if (filter === 2) guess = up;
+      else if (filter === 3) guess = (left + up) >> 1;
+      else if (filter === 4) guess = paeth(left, up, corner);
       raw[here] = (raw[here] ?? 0) + guess;
     }
   }
@@ -59,9 +64,14 @@ export function decodePng(file: Uint8Array): Pixels {
   unfilter(raw, height, rowBytes, channels);
   const data = new Uint8Array(width * height * 4).fill(255);
   for (let y = 0; y < height; y += 1) {
-    for (let x = 0; x < width; x += 1) {
-      const from = y * (rowBytes + 1) + 1 + x * channels;
-      data.set(raw.subarray(from, from + channels), 4 * (y * width + x));
+    const from = y * (rowBytes + 1) + 1;
+    if (channels === 4) data.set(raw.subarray(from, from + rowBytes), y * rowBytes);
+    else {
+      for (let x = 0; x < width; x += 1) {
+        for (let k = 0; k < 3; k += 1) {
+          data[4 * (y * width + x) + k] = raw[from + 3 * x + k] ?? 0;
+        }
+      }
     }
   }
   return { width, height, data };
@@ -75,7 +85,7 @@ export function hashOf(pixels: Pixels): string {
 export function countColours(pixels: Pixels, most: number): number {
   const seen = new Set<number>();
   for (let i = 0; i < pixels.data.length && seen.size < most; i += 4) {
-    const [r = 0, g = 0, b = 0] = pixels.data.subarray(i, i + 3);
+    const { [i]: r = 0, [i + 1]: g = 0, [i + 2]: b = 0 } = pixels.data;
     seen.add((r << 16) | (g << 8) | b);
   }
   return seen.size;

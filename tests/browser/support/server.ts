@@ -1,5 +1,13 @@
 import { type ChildProcess, spawn } from "node:child_process";
-import { existsSync, mkdtempSync, readdirSync, readFileSync, rmSync, statSync } from "node:fs";
+import {
+  existsSync,
+  mkdirSync,
+  mkdtempSync,
+  readdirSync,
+  readFileSync,
+  rmSync,
+  statSync,
+} from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { fileURLToPath } from "node:url";
@@ -20,9 +28,11 @@ export function findProgram(): string {
   return found[0];
 }
 
-/** Where pictures for people go. */
+/** Where pictures for people go, made if need be. */
 export function screenshotFolder(): string {
-  return join(kRoot, "build", "screenshots");
+  const folder = join(kRoot, "build", "screenshots");
+  mkdirSync(folder, { recursive: true });
+  return folder;
 }
 
 function childrenOf(pid: number): number[] {

@@ -136,7 +136,7 @@ TEST(RenderCommand, DrawsASceneDocument) {
     const std::string scene = folder.write("scene.json", R"({
         "camera": {"eye": {"x": 0, "y": 0, "z": 9}, "center": {}, "up": {"y": 1}},
         "layers": [{"id": "a", "dataset": "anything", "model": "RAY_MODEL_SURFACE"}],
-        "background": {"r": 0, "g": 1, "b": 0}})");
+        "background": {"r": 0, "g": 1, "b": 0}, "editor": {"density": 2}})");
     const Outcome run =
         render({"demo:mesh", "--size", "8", "8", "--scene", scene, "--png", folder.file("a.png")});
     EXPECT_EQ(run.exitCode, 0) << run.err;

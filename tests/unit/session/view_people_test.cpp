@@ -30,6 +30,15 @@ TEST_F(ViewPeopleTest, ControlIsTakenByThoseWhoMay) {
     EXPECT_FALSE(people.steers(1));
 }
 
+TEST_F(ViewPeopleTest, WhoHasTheViewTwiceMayDoTheSameInBothAndSteersInOne) {
+    people.add(4, {.person = 12, .name = "Ben", .role = v1::ROLE_WATCH, .number = 2});
+    EXPECT_EQ(people.take(4), "");
+    EXPECT_TRUE(people.steers(4));
+    EXPECT_FALSE(people.steers(2));
+    people.add(5, {.person = 13, .name = "Cy", .role = v1::ROLE_WATCH, .number = 2});
+    EXPECT_NE(people.take(5), "") << "a watcher twice is a watcher";
+}
+
 TEST_F(ViewPeopleTest, OnlyWhoSteersHandsOverAndAWatcherMaySteerByIt) {
     EXPECT_NE(people.handOver(2, 12), "");
     EXPECT_NE(people.handOver(3, 13), "");

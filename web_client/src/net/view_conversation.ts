@@ -1,4 +1,4 @@
-import { type AppState, notify } from "../state/app_state";
+import { type AppState, type Maps, notify } from "../state/app_state";
 import type { ViewDocument } from "../state/document";
 import { isShared, steers, whyNotSteering } from "../state/people";
 import { sentenceOf } from "../state/refusal";
@@ -32,7 +32,7 @@ export interface ViewEvents {
   /** The server opened a view with its own default scene. */
   opened(scene: Scene): void;
   /** The view of a link is open, or one with a scene that was saved. */
-  joined(scene: Scene): void;
+  joined(scene: Scene, edit?: Maps): void;
   /** A view was opened with a document that was not shown before. */
   restored(document: ViewDocument): void;
   /** The scene is another, by somebody else or by a step in its history. */
@@ -296,7 +296,7 @@ export class ViewConversation {
       this.people.left();
       this.people.opened(message, opening.link);
     }
-    if ((opening.link || opening.scene) && scene) this.#events.joined(scene);
+    if ((opening.link || opening.scene) && scene) this.#events.joined(scene, opening.edit);
     else if (!opening.document && scene) this.#events.opened(scene);
     else if (opening.document && !opening.shown) this.#events.restored(opening.document);
     if (!opening.shown) this.#updates.agreed();

@@ -1,3 +1,4 @@
+import type { Maps } from "../state/app_state";
 import type { ViewDocument } from "../state/document";
 import type { Scene } from "./gen/volcast/v1/scene_pb";
 
@@ -13,16 +14,19 @@ export interface Wish {
   readonly alone?: boolean | undefined;
   /** As it was saved; instead of a document. */
   readonly scene?: Scene | undefined;
+  /** How the maps of that scene were edited. */
+  readonly edit?: Maps | undefined;
 }
 
 export const kAnything: Wish = { dataset: "", document: undefined, shown: false };
 
 export const wishToJoin = (link: string): Wish => ({ ...kAnything, link });
 
-export const wishForScene = (scene: Scene): Wish => ({
+export const wishForScene = (scene: Scene, edit?: Maps): Wish => ({
   ...kAnything,
   dataset: scene.layers[0]?.dataset ?? "",
   scene,
+  edit,
 });
 
 const datasetOf = (document: ViewDocument): string => document.scene.layers[0]?.dataset ?? "";

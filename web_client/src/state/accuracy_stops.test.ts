@@ -1,5 +1,6 @@
 import { create } from "@bufbuild/protobuf";
 import { describe, expect, it } from "vitest";
+import { TimingsSchema } from "../net/gen/volcast/v1/frame_pb";
 import { Integrator, MeshEvaluator, RayModel, SceneSchema } from "../net/gen/volcast/v1/scene_pb";
 import {
   AccuracyReportSchema,
@@ -12,7 +13,8 @@ import { dragged } from "../view/camera";
 import { drawBy, measuringBegan, measuringReported } from "./accuracy";
 import { estimatedStops, measuredStops, stopsOf, usedStop } from "./accuracy_stops";
 import { adoptScene } from "./actions";
-import { createAppState } from "./app_state";
+import { createAppState, type PictureInfo } from "./app_state";
+import { kIntegratorNames } from "./models";
 
 const row = (part: Partial<AccuracyRow>): AccuracyRow =>
   Object.assign(create(AccuracyRowSchema, { layer: "a" }), part);
@@ -79,6 +81,29 @@ describe("the slider's stops", () => {
     expect(stopsOf(state)).toMatchObject({ source: "measured", stops: [{ ms: 3 }] });
     if (state.orbit.value) state.orbit.value = dragged(state.orbit.value, 9, 0, 0.01);
     expect(stopsOf(state).source).toBe("order");
+  });
+
+  it("of voxels take as long as the picture says, each beside the way that drew it", () => {
+    const state = open();
+    state.datasets.value = [create(DatasetInfoSchema, { id: "d", kind: DatasetKind.VOLUME })];
+    measuringBegan(state, "estimated");
+    const rows = [
+      row({ integrator: Integrator.FRONT, medianMs: 2, maxError: 0.5 }),
+      row({ integrator: Integrator.ENDS, medianMs: 3, maxError: 0.1 }),
+    ];
+    measuringReported(state, done(rows, true));
+    const times = () => stopsOf(state).stops.map(({ ms }) => ms);
+    expect(times()).toEqual([2, 3]);
+    const timings = create(TimingsSchema, { drawMs: 40 });
+    const integrators = [kIntegratorNames[Integrator.FRONT]];
+    const picture = { final: true, integrators, timings } as unknown as PictureInfo;
+    state.picture.value = picture;
+    expect(times()).toEqual([40, 60]);
+    // Moving pictures may be smaller, and of several layers none is known.
+    state.picture.value = { ...picture, final: false };
+    expect(times()).toEqual([2, 3]);
+    state.picture.value = { ...picture, integrators: [...picture.integrators, "psi"] };
+    expect(times()).toEqual([2, 3]);
   });
 
   it("say which one draws the picture, be it by name or as the wish asks", () => {

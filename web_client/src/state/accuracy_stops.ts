@@ -50,6 +50,22 @@ export function estimatedStops(rows: readonly AccuracyRow[], layer: string): Sto
   });
 }
 
+/**
+ * Estimates of voxels come from small pictures: they tell what one way takes beside another. Where the picture on the
+ * screen is one layer drawn in one of these ways, what it took tells the rest.
+ */
+function asDrawn(state: AppState, rows: readonly AccuracyRow[]): readonly AccuracyRow[] {
+  const picture = state.picture.value;
+  const drawn = rows.find(
+    (row) => picture?.final && kIntegratorNames[row.integrator] === picture.integrators[0],
+  );
+  const tookMs = picture?.timings?.drawMs ?? 0;
+  if (!drawn || picture?.integrators.length !== 1 || drawn.medianMs <= 0 || tookMs <= 0)
+    return rows;
+  const scale = tookMs / drawn.medianMs;
+  return rows.map((row) => ({ ...row, medianMs: scale * row.medianMs }));
+}
+
 /** The integrators of a model by their order alone. */
 export function plainStops(integrators: readonly Integrator[]): Stop[] {
   return integrators.map((integrator) => ({
@@ -73,7 +89,8 @@ export function stopsOf(state: AppState): Stops {
     if (stops.length > 0) return { source: "measured", stops };
   }
   if (estimated.value && isOfThisView(state, estimated.value)) {
-    const stops = estimatedStops(estimated.value.rows, layer);
+    const { rows } = estimated.value;
+    const stops = estimatedStops(isMesh(state) ? rows : asDrawn(state, rows), layer);
     if (stops.length > 0) return { source: "estimated", stops };
   }
   return { source: "order", stops: plainStops(integratorsHere(state)) };

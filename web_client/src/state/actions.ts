@@ -7,7 +7,7 @@ import {
   SceneSchema,
 } from "../net/gen/volcast/v1/scene_pb";
 import { DatasetKind, type FieldInfo } from "../net/gen/volcast/v1/session_pb";
-import { type Apart, joined, takenApart } from "../transfer/apart";
+import { type Apart, bothOf, joined, stretchedApart, takenApart } from "../transfer/apart";
 import { defaultMap } from "../transfer/presets";
 import { type Axis, axisOf, kStraight } from "../transfer/scale";
 import { stretched, type TransferFunction } from "../transfer/transfer_function";
@@ -72,7 +72,8 @@ export function axisOfSlot(state: AppState, slot: Slot = "first"): Axis {
   return field ? axisOf(scale, field.min, field.max) : kStraight;
 }
 
-const asPart = (slot: Slot, { map, density, smooth, apart }: MapEdit): Partial<Edit> =>
+/** A slot's map as a part of an edit. */
+export const asPart = (slot: Slot, { map, density, smooth, apart }: MapEdit): Partial<Edit> =>
   slot === "first" ? { map, density, smooth, apart } : { second: { map, density, smooth, apart } };
 
 /** Changes a map; changes of one `gesture` are undone together. */
@@ -112,6 +113,27 @@ export function changeApart(
   const apart = { ...edit.apart, ...part };
   const map = joined(apart, axisOfSlot(state, slot));
   changeEdit(state, asPart(slot, { ...edit, map, apart }), gesture);
+}
+
+/** Changes the colours or the opacities of a map, by their own points where they have some. */
+export function changePart(
+  state: AppState,
+  part: "colours" | "opacities",
+  change: (points: TransferFunction) => TransferFunction,
+  slot: Slot = "first",
+): void {
+  const { map, apart } = mapEditOf(state, slot);
+  if (!apart) {
+    changeMap(state, change(map), undefined, slot);
+    return;
+  }
+  const points = change(apart[part]);
+  changeApart(
+    state,
+    part === "colours" ? { colours: points } : { opacities: points, knots: undefined },
+    undefined,
+    slot,
+  );
 }
 
 export function changeDensity(
@@ -158,8 +180,15 @@ export function changeRange(
   const axis = axisOfSlot(state, slot);
   const inside = (value: number): number => Math.min(axis.high, Math.max(axis.low, value));
   const [from, to] = [inside(first), inside(last)];
-  if (from !== to)
-    changeMap(state, stretched(mapEditOf(state, slot).map, from, to, axis), undefined, slot);
+  if (from !== to) changeMapEdit(state, laidOver(mapEditOf(state, slot), from, to, axis), slot);
+}
+
+/** The same map over another range; see stretched(). */
+export function laidOver(edit: MapEdit, first: number, last: number, axis = kStraight): MapEdit {
+  const { density, smooth } = edit;
+  const apart = edit.apart && stretchedApart(edit.apart, first, last, axis);
+  const map = apart ? joined(apart, axis) : stretched(edit.map, first, last, axis);
+  return { map, density, smooth, apart };
 }
 
 /** Starts a map over, as one step that can be undone. */
@@ -168,10 +197,18 @@ export function resetMap(state: AppState, slot: Slot = "first"): void {
   if (field) changeEdit(state, asPart(slot, freshMap(state, field, axisOfSlot(state, slot))));
 }
 
-/** Smooth: opacities follow a spline; else extinction is straight between the points. */
-export function changeSmooth(state: AppState, smooth: boolean, slot: Slot = "first"): void {
-  const length = smooth ? state.referenceLength.value : undefined;
-  changeEdit(state, asPart(slot, { ...mapEditOf(state, slot), smooth: length }));
+/**
+ * Smooth: opacities have points of their own, whose spline they follow; else extinction is straight
+ * between the points.
+ */
+export function changeSmooth(state: AppState, on: boolean, slot: Slot = "first"): void {
+  const edit = mapEditOf(state, slot);
+  const smooth = on ? state.referenceLength.value : undefined;
+  const apart = on ? (edit.apart ?? bothOf(edit.map)) : edit.apart;
+  changeEdit(
+    state,
+    asPart(slot, { ...edit, smooth, apart: apart && { ...apart, knots: undefined } }),
+  );
 }
 
 /** The map as it is drawn. */

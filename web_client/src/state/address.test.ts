@@ -1,6 +1,7 @@
 import { create } from "@bufbuild/protobuf";
 import { describe, expect, it } from "vitest";
 import { LayerSchema, RayModel, SceneSchema } from "../net/gen/volcast/v1/scene_pb";
+import { bothOf } from "../transfer/apart";
 import { type Address, fromBase64Url, readAddress, toBase64Url, writeAddress } from "./address";
 import type { ViewDocument } from "./document";
 import { mapMessage, sceneMessage } from "./scene_message";
@@ -29,7 +30,7 @@ const document: ViewDocument = {
   scene: create(SceneSchema, { layers: [layer] }),
   orbit,
   home: { ...orbit, yaw: 0 },
-  edit: { map, density: 2, smooth: 0.5 },
+  edit: { map, density: 2, smooth: 0.5, apart: bothOf(map) },
 };
 
 describe("the page's address", () => {
@@ -43,7 +44,7 @@ describe("the page's address", () => {
     if (!place || !("document" in place)) throw new Error("no document");
     const drawn = (d: ViewDocument) => sceneMessage(d.scene, d.orbit, undefined, d.edit);
     expect(drawn(place.document)).toEqual(drawn(document));
-    expect(place.document.edit).toEqual({ ...document.edit, apart: undefined, second: undefined });
+    expect(place.document.edit).toEqual({ ...document.edit, second: undefined });
     expect(await writeAddress({ places: [place], linked: true })).toBe(
       await writeAddress({ places: [{ document }], linked: true }),
     );

@@ -1,5 +1,5 @@
 import { computed, signal } from "@preact/signals";
-import type { Codec, Timings } from "../net/gen/volcast/v1/frame_pb";
+import type { Codec, Pace, Timings } from "../net/gen/volcast/v1/frame_pb";
 import type { Layer, RayModel, Scene } from "../net/gen/volcast/v1/scene_pb";
 import type {
   DatasetInfo,
@@ -21,6 +21,7 @@ import type { Measured } from "./accuracy";
 import type { Difference } from "./difference";
 import { type History, startHistory } from "./history";
 import type { ModelThumbnail } from "./model_thumbnails";
+import type { Pins } from "./pins";
 import type { Recording } from "./recording";
 import type { Sample } from "./samples";
 import type { DescribedCode } from "./shader_actions";
@@ -47,6 +48,8 @@ export interface PictureInfo {
   readonly integrators: readonly string[];
   readonly workerGeneration: number;
   readonly timings: Timings | undefined;
+  /** What the server decided about pictures to this client, and why. */
+  readonly pace?: Pace | undefined;
   readonly bytes: number;
   readonly decodeMs: number;
   /** Of a lossless picture: the hash of its pixels is the server's; undefined: it cannot be told. */
@@ -209,6 +212,10 @@ export function createAppState(shared: SharedState = createSharedState()) {
     plan: signal<Plan | undefined>(undefined),
     /** What ways to draw a view are worth, where that was measured. */
     measured: signal<Measured | undefined>(undefined),
+    /** What pacing must not change of the pictures sent here. */
+    pins: signal<Pins>({}),
+    /** The chart of what was measured, or its place, is on the screen. */
+    chartInSight: signal(false),
     /** The same as plans with bounds know it, where that was asked. */
     estimated: signal<Measured | undefined>(undefined),
     /** What effects of the picture take, where that was measured. */

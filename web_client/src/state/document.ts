@@ -1,7 +1,8 @@
 import { fromBinary, toBinary } from "@bufbuild/protobuf";
 import { type Scene, SceneSchema } from "../net/gen/volcast/v1/scene_pb";
+import { editedMapOf } from "../transfer/map_file";
 import type { Orbit } from "../view/camera";
-import type { MapEdit, Maps } from "./app_state";
+import type { Maps } from "./app_state";
 
 /** A view with all that the user did to it: what a reload, or a return to a dataset, restores. */
 export interface ViewDocument {
@@ -33,12 +34,18 @@ function isOrbit(value: unknown): value is Orbit {
   );
 }
 
-const isMap = (value: unknown): value is MapEdit => {
-  const m = value as Partial<MapEdit> | null | undefined;
-  const { apart } = m ?? {};
-  const parts = !apart || (Array.isArray(apart.colours) && Array.isArray(apart.opacities));
-  return !!m && Array.isArray(m.map) && Number.isFinite(m.density) && parts;
-};
+/** Maps as JSON has them; a layer that draws without a map has none. Errors: what is wrong, and where. */
+export function mapsOf(value: unknown): Maps {
+  const { map, second } = value as { map?: unknown; second?: unknown };
+  const isNone = Array.isArray(map) && map.length === 0;
+  const first = isNone
+    ? { map: [], density: 1, smooth: undefined, apart: undefined }
+    : editedMapOf(value, "editor");
+  return {
+    ...first,
+    second: second === undefined ? undefined : editedMapOf(second, "editor.second"),
+  };
+}
 
 /** Reads what writeDocument wrote; undefined for anything else. */
 export function readDocument(text: string | null): ViewDocument | undefined {
@@ -50,12 +57,9 @@ export function readDocument(text: string | null): ViewDocument | undefined {
     >;
     if (raw.version !== kVersion || typeof raw.scene !== "string") return undefined;
     if (!isOrbit(raw.orbit) || !isOrbit(raw.home)) return undefined;
-    const { map, density, smooth, apart, second } = raw.edit;
-    if (!isMap(raw.edit) || !(second === undefined || isMap(second))) return undefined;
     const bytes = Uint8Array.from(atob(raw.scene), (c) => c.charCodeAt(0));
     const scene = fromBinary(SceneSchema, bytes);
-    const edit = { map, density, smooth, apart, second };
-    return { scene, orbit: raw.orbit, home: raw.home, edit };
+    return { scene, orbit: raw.orbit, home: raw.home, edit: mapsOf(raw.edit) };
   } catch {
     return undefined;
   }

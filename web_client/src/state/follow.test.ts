@@ -1,10 +1,11 @@
 import { create } from "@bufbuild/protobuf";
 import { describe, expect, it } from "vitest";
 import { LayerSchema, SceneSchema } from "../net/gen/volcast/v1/scene_pb";
+import { bothOf } from "../transfer/apart";
 import { dragged, frameOf, type Orbit } from "../view/camera";
 import { rolled } from "../view/turning";
 import { createAppState, type Edit } from "./app_state";
-import { editOf, followScene, orbitAbout, sameMap } from "./follow";
+import { editOf, followScene, joinScene, orbitAbout, sameMap } from "./follow";
 import { startHistory } from "./history";
 import { cameraMessage, sceneMessage } from "./scene_message";
 
@@ -53,6 +54,18 @@ describe("scenes of the server", () => {
     expect(found.density).toBe(1);
     expect(found.map.length).toBe(received.layers[0]?.transferFunction?.points.length);
     expect(found.smooth).toBeUndefined();
+  });
+
+  it("are edited as their file says, as long as that draws what they show", () => {
+    for (const [density, found] of [
+      [3, 3],
+      [2, 1],
+    ] as const) {
+      const state = createAppState();
+      joinScene(state, received, { map, density, smooth: 0.5, apart: bothOf(map) });
+      expect(state.edit.value.present.density).toBe(found);
+      expect(state.edit.value.present.smooth).toBe(found === 3 ? 0.5 : undefined);
+    }
   });
 
   it("tells maps apart by more than rounding alone", () => {

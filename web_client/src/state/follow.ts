@@ -3,7 +3,7 @@ import type { TransferFunction } from "../transfer/transfer_function";
 import { fitted, frameOf, type Orbit, seenFrom } from "../view/camera";
 import { dot } from "../view/vec3";
 import { freshMap } from "./actions";
-import type { AppState, Edit, MapEdit } from "./app_state";
+import type { AppState, Edit, MapEdit, Maps } from "./app_state";
 import { changed } from "./history";
 import { drawnFrom, mapOf, orbitOf } from "./scene_message";
 
@@ -58,10 +58,14 @@ export function orbitAbout(camera: Camera, axis: Orbit["axis"] | undefined): Orb
 /** So many of the newest edits are looked at when a scene comes. */
 const kMostKnown = 20;
 
-/** Shows a scene that the server has: somebody else's change, or a step back. */
-export function followScene(state: AppState, scene: Scene): void {
+/**
+ * Shows a scene that the server has: somebody else's change, a step back, or one from a file, which
+ * may say how its maps were edited.
+ */
+export function followScene(state: AppState, scene: Scene, saved?: Maps): void {
   const { past, present } = state.edit.value;
-  const edit = editOf(scene, [present, ...past.slice(-kMostKnown).reverse()]);
+  const known = [present, ...past.slice(-kMostKnown).reverse()];
+  const edit = editOf(scene, saved ? [{ ...saved, scene }, ...known] : known);
   const field = state.field.value;
   const fresh = edit.map.length <= 1 && field ? freshMap(state, field) : undefined;
   state.edit.value = changed(state.edit.value, { ...edit, ...fresh });
@@ -72,12 +76,12 @@ export function followCamera(state: AppState, camera: Camera): void {
   state.orbit.value = orbitAbout(camera, state.home.value?.axis);
 }
 
-/** Shows the scene of a view that others began, by the camera that it has. */
-export function joinScene(state: AppState, scene: Scene): void {
+/** Shows the scene of a view that others began, or of a file, by the camera that it has. */
+export function joinScene(state: AppState, scene: Scene, saved?: Maps): void {
   if (!scene.camera) return;
   const orbit = orbitOf(scene.camera);
   state.home.value = orbit;
-  followScene(state, scene);
+  followScene(state, scene, saved);
   const { bounds, viewport } = state;
   const aspect = viewport.value ? viewport.value.width / viewport.value.height : 1;
   if (bounds.value) state.home.value = fitted(orbit, bounds.value, aspect);

@@ -11,12 +11,13 @@ import {
 import { Association, type FieldInfo } from "../net/gen/volcast/v1/session_pb";
 import { defaultMap } from "../transfer/presets";
 import { axisOf, positiveDomain } from "../transfer/scale";
-import { stretched, type TransferFunction } from "../transfer/transfer_function";
 import {
+  asPart,
   changeEdit,
   changeLayer,
   fieldOf,
   freshMap,
+  laidOver,
   mapEditOf,
   usualRangeOf,
   withLayer,
@@ -55,11 +56,10 @@ const leftFields = new Map<string, LeftField>();
 const key = (dataset: string, field: string): string => JSON.stringify([dataset, field]);
 
 function mapFor(state: AppState, field: FieldInfo): MapEdit {
-  const { map, density, smooth } = state.edit.value.present;
   const { min, max } = usualRangeOf(field);
-  const next = max > min ? stretched(map, min, max) : [];
-  if (next.length > 1) return { map: next, density, smooth };
-  return { map: defaultMap(min, max, state.referenceLength.value), density };
+  const next = max > min ? laidOver(state.edit.value.present, min, max) : undefined;
+  if (next && next.map.length > 1) return next;
+  return { map: defaultMap(min, max, state.referenceLength.value), density: 1 };
 }
 
 /** Shows another field; its map is the one it had, or the shown one over the field's range. */
@@ -68,10 +68,10 @@ export function changeField(state: AppState, name: string): void {
   const next = dataset?.fields.find((f) => f.name === name);
   const before = state.field.value;
   const layer = state.layer.value;
-  const { scene, map, density, smooth } = state.edit.value.present;
+  const { scene, map, density, smooth, apart } = state.edit.value.present;
   if (!dataset || !next || !before || !scene || !layer || next.name === before.name) return;
   leftFields.set(key(dataset.id, before.name), {
-    map: { map, density, smooth },
+    map: { map, density, smooth, apart },
     scale: layer.scale,
   });
   const kept = leftFields.get(key(dataset.id, name));
@@ -83,7 +83,8 @@ export function changeField(state: AppState, name: string): void {
     levels: layer.levels && movedTo(layer.levels, before, next),
     densityField: layer.densityField === name ? "" : layer.densityField,
   };
-  changeEdit(state, { ...(kept?.map ?? mapFor(state, next)), scene: withLayer(scene, part) });
+  const shown = { smooth: undefined, apart: undefined, ...(kept?.map ?? mapFor(state, next)) };
+  changeEdit(state, { ...shown, scene: withLayer(scene, part) });
 }
 
 /** Takes density, or colour, from another field; with "" from the first field again. */
@@ -108,22 +109,22 @@ const scaleKey = (slot: Slot): "scale" | "densityScale" =>
 
 /** The map where `scale` can show it: as it is if it fits, else the same shape over the domain. */
 function mapUnder(
-  map: TransferFunction,
+  edit: MapEdit,
   field: FieldInfo,
   before: Scale | undefined,
   scale: Scale,
-): TransferFunction {
+): MapEdit {
   const isLog = (s: Scale | undefined): boolean => s?.kind === Scale_Kind.LOG;
-  const low = map[0]?.value ?? field.min;
-  const high = map[map.length - 1]?.value ?? field.max;
+  const low = edit.map[0]?.value ?? field.min;
+  const high = edit.map[edit.map.length - 1]?.value ?? field.max;
   if (isLog(scale)) {
     const axis = axisOf(scale, field.min, field.max);
     const fits = low >= axis.low && high <= axis.high && high > low;
-    return fits || !(axis.low > 0) ? map : stretched(map, axis.low, axis.high);
+    return fits || !(axis.low > 0) ? edit : laidOver(edit, axis.low, axis.high);
   }
   // What a logarithm had pushed above 0 gets its range back.
   const pushed = isLog(before) && field.min <= 0 && low > 0;
-  return pushed ? stretched(map, field.min, field.max) : map;
+  return pushed ? laidOver(edit, field.min, field.max) : edit;
 }
 
 /** Changes a field's scale; map, interval and levels follow it into what it can show. */
@@ -132,10 +133,9 @@ export function changeScale(state: AppState, slot: Slot, scale: Scale, gesture?:
   const layer = state.layer.value;
   const { scene } = state.edit.value.present;
   if (!field || !layer || !scene) return;
-  const edit = mapEditOf(state, slot);
   const axis = axisOf(scale, field.min, field.max);
   const log = scale.kind === Scale_Kind.LOG;
-  const map = mapUnder(edit.map, field, layer[scaleKey(slot)], scale);
+  const edit = mapUnder(mapEditOf(state, slot), field, layer[scaleKey(slot)], scale);
   const part: Partial<Layer> = { [scaleKey(slot)]: scale };
   if (slot === "first" && log) {
     if (layer.interval && layer.interval.min <= 0) part.interval = undefined;
@@ -144,8 +144,7 @@ export function changeScale(state: AppState, slot: Slot, scale: Scale, gesture?:
       part.levels = middleLevel({ min: axis.low, max: axis.high });
     }
   }
-  const maps = slot === "first" ? { map } : { second: { ...edit, map } };
-  changeEdit(state, { ...maps, scene: withLayer(scene, part) }, gesture);
+  changeEdit(state, { ...asPart(slot, edit), scene: withLayer(scene, part) }, gesture);
 }
 
 /** Another kind of scale, over the whole range of the field where that has a meaning. */

@@ -30,7 +30,8 @@ function adopted(state: AppState, slot: Slot, json: unknown): EditedMap {
       ...sampleAt(laid, value, axis.along),
       extinction: sampleAt(before.map, value, axis.along).extinction,
     }));
-  return { ...before, map: withoutIdlePoints(joined, axis.along), apart: undefined };
+  const map = withoutIdlePoints(joined, axis.along);
+  return { ...before, map, apart: before.apart && { ...before.apart, colours: laid } };
 }
 
 /** Takes a map out of a file's text, as one step that can be undone. Errors: why it is none. */
@@ -51,6 +52,6 @@ export function takeMapFile(state: AppState, slot: Slot, text: string): void {
     throw new Error(`it has ${taken.map.length} points; this server draws ${most}`);
   }
   const wasApart = mapEditOf(state, slot).apart !== undefined && !isOwn;
-  const apart = wasApart ? takenApart(taken.map, axis) : taken.apart;
+  const apart = taken.apart ?? (wasApart ? takenApart(taken.map, axis) : undefined);
   changeMapEdit(state, { ...taken, apart }, slot);
 }

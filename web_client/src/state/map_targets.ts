@@ -1,5 +1,13 @@
-import type { TransferFunction } from "../transfer/transfer_function";
-import { changeApart, changeMap, mapEditOf } from "./actions";
+import { type SmoothCurve, withCurvePointAt, withoutCurvePoint } from "../transfer/smooth_curve";
+import type { Colour } from "../transfer/srgb";
+import {
+  isEnd,
+  type TransferFunction,
+  withColour,
+  withoutPoint,
+  withPointAt,
+} from "../transfer/transfer_function";
+import { axisOfSlot, changeApart, changeMap, mapEditOf } from "./actions";
 import type { AppState } from "./app_state";
 import { type Slot, usesColours, usesExtinction } from "./models";
 
@@ -23,9 +31,11 @@ export function canBeApart(state: AppState, slot: Slot): boolean {
 export function targetsOf(state: AppState, slot: Slot): readonly MapTarget[] {
   const { map, apart } = mapEditOf(state, slot);
   const layer = state.layer.value;
-  if (apart && canBeApart(state, slot)) {
+  const showsColours = usesColours(layer, slot);
+  const showsOpacity = usesExtinction(layer, slot);
+  if (apart) {
     const { colours, opacities } = apart;
-    return [
+    const targets: MapTarget[] = [
       {
         part: "opacities",
         name: "Opacity point",
@@ -41,9 +51,8 @@ export function targetsOf(state: AppState, slot: Slot): readonly MapTarget[] {
         showsOpacity: false,
       },
     ];
+    return targets.filter((t) => (t.showsOpacity ? showsOpacity : showsColours));
   }
-  const showsColours = usesColours(layer, slot);
-  const showsOpacity = usesExtinction(layer, slot);
   return [{ part: "map", name: "Point", points: map, showsColours, showsOpacity }];
 }
 
@@ -63,4 +72,52 @@ export function changePoints(
   if (points === pointsOf(state, slot, part)) return;
   if (part === "map") changeMap(state, points, gesture, slot);
   else changeApart(state, { [part]: points }, gesture, slot);
+}
+
+/** The curve that the points of a part are of; undefined where lines are straight between them. */
+function curveOf(state: AppState, slot: Slot, part: MapTarget["part"]): SmoothCurve | undefined {
+  const { smooth, apart } = mapEditOf(state, slot);
+  if (part !== "opacities" || smooth === undefined || !apart) return undefined;
+  const { opacities, knots } = apart;
+  return { opacities, knots, distance: smooth, axis: axisOfSlot(state, slot) };
+}
+
+/** Adds a point that changes nothing until it is moved, but for its `colour`; returns its index. */
+export function addPoint(
+  state: AppState,
+  slot: Slot,
+  part: MapTarget["part"],
+  value: number,
+  colour?: Colour,
+): number {
+  const curve = curveOf(state, slot, part);
+  if (curve) {
+    const { opacities, knots, index } = withCurvePointAt(curve, value);
+    if (opacities.length > curve.opacities.length) {
+      changeApart(state, { opacities, knots }, undefined, slot);
+    }
+    return index;
+  }
+  const points = pointsOf(state, slot, part);
+  const { map, index } = withPointAt(points, value, axisOfSlot(state, slot).along);
+  changePoints(state, slot, part, colour ? withColour(map, index, colour) : map);
+  return index;
+}
+
+/** Removes a point that is no end. */
+export function removePoint(
+  state: AppState,
+  slot: Slot,
+  part: MapTarget["part"],
+  index: number,
+): void {
+  const points = pointsOf(state, slot, part);
+  if (isEnd(points, index)) return;
+  const curve = curveOf(state, slot, part);
+  if (curve) {
+    const { opacities, knots } = withoutCurvePoint(curve, index);
+    changeApart(state, { opacities, knots }, undefined, slot);
+  } else {
+    changePoints(state, slot, part, withoutPoint(points, index));
+  }
 }

@@ -2,7 +2,7 @@ import { create } from "@bufbuild/protobuf";
 import { describe, expect, it } from "vitest";
 import { PersonSchema, Role, WelcomeSchema } from "../net/gen/volcast/v1/session_pb";
 import { createAppState } from "./app_state";
-import { mayTake, newAsk, noteOf, steers, whyNotSteering } from "./people";
+import { eachOnce, mayTake, newAsk, noteOf, steers, whyNotSteering } from "./people";
 
 const ann = create(PersonSchema, { id: 1, name: "Ann", role: Role.CONTROL, steers: true });
 const ben = create(PersonSchema, { id: 2, name: "Ben", role: Role.CONTROL });
@@ -29,6 +29,20 @@ describe("people", () => {
     expect(whyNotSteering(seenBy(2))).toBe("Ann steers this view. Take control to change it.");
     expect(whyNotSteering(seenBy(3))).toBe("Ann steers this view. Ask for control to change it.");
     expect(whyNotSteering(seenBy(3, [ben, cy]))).toMatch(/^Nobody steers this view now\./);
+  });
+
+  it("takes who has the view open twice for one person, who steers in one place at a time", () => {
+    const beside = create(PersonSchema, { ...ann, steers: false, away: true });
+    expect(eachOnce([beside, ben, ann]).map((p) => [p.name, p.steers, p.away])).toEqual([
+      ["Ann", true, false],
+      ["Ben", false, false],
+    ]);
+    expect(eachOnce([ann, { ...ann, id: 4 }])).toHaveLength(2);
+    const here = seenBy(1, [{ ...beside, away: false }, ann, ben]);
+    expect(steers(here)).toBe(false);
+    expect(whyNotSteering(here)).toBe(
+      "You steer this view beside this one. Take control to change it.",
+    );
   });
 
   it("gives control to those who may have it", () => {

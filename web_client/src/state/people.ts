@@ -5,7 +5,26 @@ type Facts = Pick<AppState, "people" | "seat" | "welcome">;
 
 const isMe = (state: Facts, person: Person): boolean => person.id === state.welcome.value?.person;
 
-/** Oneself, as the others see one. */
+/**
+ * Everybody once: who has the view open more than once is one person. They steer and ask if they do in any of their
+ * places, and are away if they are in all.
+ */
+export function eachOnce(people: readonly Person[]): Person[] {
+  const found = new Map<number, Person>();
+  for (const person of people) {
+    const known = found.get(person.id) ?? person;
+    found.set(person.id, {
+      ...known,
+      role: Math.max(known.role, person.role),
+      steers: known.steers || person.steers,
+      asks: known.asks || person.asks,
+      away: known.away && person.away,
+    });
+  }
+  return [...found.values()];
+}
+
+/** One's own place in this view: the server lists it before others of oneself. */
 export function myself(state: Facts): Person | undefined {
   return state.people.value.find((p) => isMe(state, p));
 }
@@ -25,11 +44,17 @@ export const mayTake = (state: Facts): boolean =>
 export const isShared = (state: Pick<AppState, "serverSteps">): boolean =>
   state.serverSteps.value !== undefined;
 
+function whoSteers(state: Facts): string {
+  const person = state.people.value.find((p) => p.steers);
+  if (!person) return "Nobody steers this view now.";
+  if (isMe(state, person)) return "You steer this view beside this one.";
+  return `${person.name} steers this view.`;
+}
+
 /** Why nothing can be changed here, as a sentence; undefined for the one who steers. */
 export function whyNotSteering(state: Facts): string | undefined {
   if (steers(state)) return undefined;
-  const name = state.people.value.find((p) => p.steers)?.name;
-  const who = name === undefined ? "Nobody steers this view now." : `${name} steers this view.`;
+  const who = whoSteers(state);
   return `${who} ${mayTake(state) ? "Take control to change it." : "Ask for control to change it."}`;
 }
 

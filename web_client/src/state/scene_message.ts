@@ -9,8 +9,9 @@ import {
   type TransferFunction as TransferFunctionMessage,
   TransferFunctionSchema,
 } from "../net/gen/volcast/v1/scene_pb";
-import { smoothed } from "../transfer/drawn_map";
+import { bothOf } from "../transfer/apart";
 import { axisOf } from "../transfer/scale";
+import { smoothed } from "../transfer/smooth_curve";
 import { scaled, type TransferFunction, withoutIdlePoints } from "../transfer/transfer_function";
 import { type Bounds, type Orbit, orbitFrom, poseFrom } from "../view/camera";
 import type { Vec3 } from "../view/vec3";
@@ -57,9 +58,11 @@ export function mapOf(message: TransferFunctionMessage | undefined): TransferFun
 
 /** What is drawn of an edited map: its curve, with extinction times the density. */
 export function drawnFrom(edit: MapEdit, scale: Scale | undefined): TransferFunction {
-  const { map, density, smooth } = edit;
+  const { map, density, smooth, apart } = edit;
   const axis = axisOf(scale, map[0]?.value ?? 0, map[map.length - 1]?.value ?? 0);
-  const shown = smooth ? smoothed(map, smooth, axis) : withoutIdlePoints(map, axis.along);
+  const shown = smooth
+    ? smoothed(apart ?? bothOf(map), smooth, axis)
+    : withoutIdlePoints(map, axis.along);
   return scaled(shown, density);
 }
 

@@ -12,6 +12,8 @@ export interface ViewOptions {
   readonly thumbnails: boolean;
   /** Clip planes have handles in the picture. */
   readonly handles: boolean;
+  /** Error against time is measured when nothing else happens; it keeps the server's GPU busy, so one asks for it. */
+  readonly measureIdle: boolean;
 }
 
 export type ViewOption = keyof ViewOptions;
@@ -25,6 +27,7 @@ export const kUsualOptions: ViewOptions = {
   hud: false,
   thumbnails: false,
   handles: true,
+  measureIdle: false,
 };
 
 const kKey = "volcast.options";

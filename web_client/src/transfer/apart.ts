@@ -1,7 +1,7 @@
 import { above, below, type Knot } from "./drawn_map";
 import { type Axis, kStraight } from "./scale";
 import { mixColour } from "./srgb";
-import type { Point, TransferFunction } from "./transfer_function";
+import { type Point, stretched, type TransferFunction } from "./transfer_function";
 
 /**
  * A map whose colours and extinctions have points of their own, each as many as they like; of the
@@ -10,6 +10,8 @@ import type { Point, TransferFunction } from "./transfer_function";
 export interface Apart {
   readonly colours: TransferFunction;
   readonly opacities: TransferFunction;
+  /** Of opacities that follow a spline, see transfer/spline.ts; absent: uniform. */
+  readonly knots?: readonly number[] | undefined;
 }
 
 const white = { r: 1, g: 1, b: 1 } as const;
@@ -46,9 +48,34 @@ function corners(
 export function takenApart(map: TransferFunction, axis: Axis = kStraight): Apart {
   const colours = corners(map, ({ colour: { r, g, b } }) => [r, g, b], axis);
   const opacities = corners(map, ({ extinction }) => [extinction], axis);
+  return split(colours, opacities);
+}
+
+function split(colours: TransferFunction, opacities: TransferFunction): Apart {
   return {
     colours: colours.map((point) => ({ ...point, extinction: 0 })),
     opacities: opacities.map((point) => ({ ...point, colour: white })),
+  };
+}
+
+/** Takes a map apart and keeps all of its points for both parts: a spline hangs on each of them. */
+export const bothOf = (map: TransferFunction): Apart => split(map, map);
+
+/** The same shape over another range, as stretched(): both parts by the range of both. */
+export function stretchedApart(
+  apart: Apart,
+  first: number,
+  last: number,
+  axis: Axis = kStraight,
+): Apart {
+  const { colours, opacities, knots } = apart;
+  const map = joined(apart, axis);
+  const [from, to] = [map[0]?.value ?? 0, map[map.length - 1]?.value ?? 0];
+  const end = knots?.[knots.length - 1] ?? 0;
+  return {
+    colours: stretched(colours, first, last, axis, { from, to }),
+    opacities: stretched(opacities, first, last, axis, { from, to }),
+    knots: first > last ? knots?.map((knot) => end - knot).reverse() : knots,
   };
 }
 

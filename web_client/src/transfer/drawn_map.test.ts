@@ -1,8 +1,7 @@
 import { readFileSync } from "node:fs";
 import { describe, expect, it } from "vitest";
-import { type DrawnMap, fromTable, kOpacityError, resolved, smoothed } from "./drawn_map";
-import { extinctionFromOpacity, opacityFromExtinction } from "./opacity";
-import { kStraight } from "./scale";
+import { type DrawnMap, fromTable, kOpacityError, resolved } from "./drawn_map";
+import { opacityFromExtinction } from "./opacity";
 import { sampleAt, type TransferFunction } from "./transfer_function";
 
 interface Row {
@@ -55,23 +54,5 @@ describe("drawn map", () => {
       const values = resolvedOf(row).map((p) => p.value);
       expect(values).toEqual([...values].sort((a, b) => a - b));
     }
-  });
-
-  it("smooths a map: its ends and colours stay, a peak is rounded off", () => {
-    const black = { r: 0, g: 0, b: 0 };
-    const white = { r: 1, g: 1, b: 1 };
-    const peak = [0, 2, 3, 4, 6].map((value, i) => ({
-      value,
-      colour: i === 2 ? white : black,
-      extinction: extinctionFromOpacity(i === 2 ? 0.8 : 0, 0.5),
-    }));
-    const smooth = smoothed(peak, 0.5, kStraight);
-    expect(smooth[0]?.value).toBe(0);
-    expect(smooth[smooth.length - 1]?.value).toBe(6);
-    expect(sampleAt(smooth, 3).colour.g).toBe(1);
-    // In the middle of 5 points the two spans meet: (1/4 + 1/4) of neighbours, 1/2 of the point.
-    const top = opacityFromExtinction(sampleAt(smooth, 3).extinction, 0.5);
-    expect(Math.abs(top - 0.4)).toBeLessThan(kOpacityError);
-    expect(smoothed(peak.slice(0, 2), 0.5, kStraight)).toEqual(peak.slice(0, 2));
   });
 });

@@ -1,4 +1,3 @@
-import { opacityFromExtinction } from "./opacity";
 import { OpacityCurve, type OpacityPoint } from "./opacity_curve";
 import { type Axis, kStraight } from "./scale";
 import { type Colour, mixColour } from "./srgb";
@@ -21,6 +20,8 @@ export interface DrawnMap {
   readonly opacities: readonly OpacityPoint[];
   /** Of the opacity's curve: 3, or 1 for straight lines. */
   readonly degree: 1 | 3;
+  /** Of the opacity's curve, see OpacityCurve; absent: uniform, as the server's twin has them. */
+  readonly knots?: readonly number[] | undefined;
   /** World units, > 0. */
   readonly distance: number;
 }
@@ -74,7 +75,8 @@ export function above<Value>(
 
 const lerp: Mix<number> = (a, b, t) => a + t * (b - a);
 
-const depthOf = (opacity: number): number => -Math.log1p(-Math.min(opacity, kMostOpacity));
+/** What opacity is straight in: extinction times distance. */
+export const depthOf = (opacity: number): number => -Math.log1p(-Math.min(opacity, kMostOpacity));
 
 interface Stretch {
   readonly x0: number;
@@ -111,7 +113,7 @@ function follow(curve: OpacityCurve, span: number, s: Stretch, into: Knot<number
 }
 
 function depthsOf(map: DrawnMap): Knot<number>[] {
-  const curve = new OpacityCurve(map.opacities, map.degree);
+  const curve = new OpacityCurve(map.opacities, map.degree, map.knots);
   let from = curve.joint(0);
   const depths = [{ position: from.position, value: depthOf(from.opacity) }];
   for (let span = 0; span < curve.spans; span += 1) {
@@ -178,24 +180,4 @@ export function fromTable(
   const colours = rgba.map(([r, g, b], i) => ({ position: place(i), value: { r, g, b } }));
   const depths = rgba.map(([, , , a], i) => ({ position: place(i), value: depthOf(a) }));
   return merged(colours, depths, distance, window, axis);
-}
-
-/**
- * A map whose opacities over `distance` follow a spline towards those of its points; colours stay
- * straight between them.
- */
-export function smoothed(map: TransferFunction, distance: number, axis: Axis): TransferFunction {
-  const first = map[0]?.value ?? 0;
-  const last = map[map.length - 1]?.value ?? 0;
-  const span = axis.along(last) - axis.along(first);
-  if (map.length < 3 || !(span > 0)) return map;
-  const placed = map.map((point, i) => ({
-    ...point,
-    position: i === map.length - 1 ? 1 : (axis.along(point.value) - axis.along(first)) / span,
-  }));
-  const opacities = placed.map(({ position, extinction }) => ({
-    position,
-    opacity: opacityFromExtinction(extinction, distance),
-  }));
-  return resolved({ colours: placed, opacities, degree: 3, distance }, { first, last }, axis);
 }

@@ -1,4 +1,4 @@
-import type { Apart } from "./apart";
+import { type Apart, bothOf } from "./apart";
 import type { Colour } from "./srgb";
 import type { Point, TransferFunction } from "./transfer_function";
 
@@ -60,24 +60,53 @@ function pointsOf(value: unknown, name: string): TransferFunction {
   return points;
 }
 
+function knotsOf(value: unknown, count: number, name: string): readonly number[] | undefined {
+  if (value === undefined || value === null) return undefined;
+  if (!Array.isArray(value)) throw new Error(`${name} is no list`);
+  const knots = value.map((knot: unknown, i) => finite(knot, `${name}[${i}]`));
+  const wrong = knots.findIndex((knot, i) => i > 0 && knot <= (knots[i - 1] ?? knot));
+  if (wrong >= 0) throw new Error(`${name}[${wrong}] is not above the one before it`);
+  const wanted = Math.max(2, count - 2);
+  if (knots.length !== wanted)
+    throw new Error(`${name} has ${knots.length} numbers, not ${wanted}`);
+  return knots;
+}
+
+function apartOf(value: unknown, name: string): Apart | undefined {
+  if (value === undefined || value === null) return undefined;
+  const parts = object(value, name);
+  const colours = pointsOf(parts.colours, `${name}.colours`);
+  const opacities = pointsOf(parts.opacities, `${name}.opacities`);
+  const knots = knotsOf(parts.knots, opacities.length, `${name}.knots`);
+  return knots ? { colours, opacities, knots } : { colours, opacities };
+}
+
+/** A map as it is edited, at `name` in a file. Errors: what is wrong, with its place. */
+export function editedMapOf(value: unknown, name: string): EditedMap {
+  const { map, density, smooth, apart } = object(value, name);
+  const factor = finite(density ?? 1, `${name}.density`);
+  if (factor <= 0) throw new Error(`${name}.density is not above 0`);
+  const length =
+    smooth === undefined || smooth === null ? undefined : finite(smooth, `${name}.smooth`);
+  if (length !== undefined && length <= 0) throw new Error(`${name}.smooth is not above 0`);
+  const points = pointsOf(map, `${name}.map`);
+  const parts = apartOf(apart, `${name}.apart`);
+  // A curve hangs on opacities of its own; files from before that have those of the map.
+  return {
+    map: points,
+    density: factor,
+    smooth: length,
+    apart: parts ?? (length === undefined ? undefined : bothOf(points)),
+  };
+}
+
 /** Errors: what is wrong, with its place in the file. */
 export function readMap(json: unknown): EditedMap {
   const file = object(json, "the map");
   const points = pointsOf(file.points, "points");
-  if (file.editor === undefined) return { map: points, density: 1 };
-  const { map, density, smooth, apart } = object(file.editor, "editor");
-  const factor = finite(density ?? 1, "editor.density");
-  if (factor <= 0) throw new Error("editor.density is not above 0");
-  const parts = apart === undefined || apart === null ? undefined : object(apart, "editor.apart");
-  return {
-    map: pointsOf(map, "editor.map"),
-    density: factor,
-    smooth: smooth === undefined || smooth === null ? undefined : finite(smooth, "editor.smooth"),
-    apart: parts && {
-      colours: pointsOf(parts.colours, "editor.apart.colours"),
-      opacities: pointsOf(parts.opacities, "editor.apart.opacities"),
-    },
-  };
+  return file.editor === undefined
+    ? { map: points, density: 1 }
+    : editedMapOf(file.editor, "editor");
 }
 
 /** Whether a file is one of ours; else it is tried as a preset of ParaView. */

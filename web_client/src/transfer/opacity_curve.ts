@@ -16,17 +16,23 @@ const kMostDegree = 3;
 const kMostSteps = 60;
 
 /**
- * A clamped B-spline over uniform knots, (x(u), y(u)), read as y(x): x(u) = x is solved for u. The
- * twin of renderer/data/opacity_curve.h, which says more.
+ * A clamped B-spline, (x(u), y(u)), read as y(x): x(u) = x is solved for u. The twin of
+ * renderer/data/opacity_curve.h, which says more and has uniform knots alone.
  */
 export class OpacityCurve {
   readonly #points: readonly OpacityPoint[];
   readonly #degree: number;
+  readonly #knots: readonly number[];
 
-  /** `points`: one at least, positions never falling; few of them lower the degree. */
-  constructor(points: readonly OpacityPoint[], degree: number) {
+  /**
+   * `points`: one at least, positions never falling; few of them lower the degree. `knots`: where
+   * its parts meet, ends included, each once and rising; absent, or of another number: 0, 1, 2 ...
+   */
+  constructor(points: readonly OpacityPoint[], degree: number, knots?: readonly number[]) {
     this.#points = points;
     this.#degree = Math.min(degree, kMostDegree, points.length - 1);
+    const uniform = Array.from({ length: this.spans + 1 }, (_, i) => i);
+    this.#knots = knots?.length === uniform.length ? knots : uniform;
   }
 
   /** Its parts are one polynomial each; 0 where there is a single point. */
@@ -39,15 +45,15 @@ export class OpacityCurve {
     const last = this.#points.length - 1;
     const end = span <= 0 ? this.#points[0] : span >= this.spans ? this.#points[last] : undefined;
     if (end) return end;
-    const { x, y } = this.#place(span, span);
+    const { x, y } = this.#place(span, this.#knots[span] ?? span);
     return { position: x, opacity: y };
   }
 
   /** y at x, which lies within the span's ends. */
   at(span: number, x: number): number {
-    let low = span;
-    let high = span + 1;
-    let u = span + 0.5;
+    let low = this.#knots[span] ?? span;
+    let high = this.#knots[span + 1] ?? low;
+    let u = 0.5 * (low + high);
     for (let step = 0; step < kMostSteps; step += 1) {
       const here = this.#place(span, u);
       if (here.x === x) return here.y;
@@ -62,9 +68,9 @@ export class OpacityCurve {
     return this.#place(span, u).y;
   }
 
-  /** 0 (degree + 1 times), 1, 2 ... spans (degree + 1 times). */
+  /** Its ends degree + 1 times, all others once. */
   #knot(i: number): number {
-    return Math.min(this.spans, Math.max(0, i - this.#degree));
+    return this.#knots[Math.min(this.spans, Math.max(0, i - this.#degree))] ?? 0;
   }
 
   #place(span: number, u: number): Place {
@@ -78,7 +84,10 @@ export class OpacityCurve {
     };
     let speed = 0;
     for (let level = 1; level <= degree; level += 1) {
-      if (level === degree) speed = degree * ((x[1] ?? 0) - (x[0] ?? 0));
+      if (level === degree) {
+        const width = this.#knot(span + degree + 1) - this.#knot(span + degree);
+        speed = (degree * ((x[1] ?? 0) - (x[0] ?? 0))) / width;
+      }
       for (let j = 0; j <= degree - level; j += 1) {
         const low = this.#knot(span + j + level);
         const high = this.#knot(span + j + degree + 1);

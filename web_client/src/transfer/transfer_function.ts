@@ -90,16 +90,26 @@ export function scaled(map: TransferFunction, factor: number): TransferFunction 
   return map.map((p) => ({ ...p, extinction: p.extinction * factor }));
 }
 
-/** The same shape over another range of values, turned round where `first` is above `last`. */
+/** The ends of a map. */
+const endsOf = (map: TransferFunction) => ({
+  from: map[0]?.value ?? 0,
+  to: map[map.length - 1]?.value ?? 0,
+});
+
+/**
+ * The same shape over another range of values, turned round where `first` is above `last`; `ends`
+ * come to lie there, which are the map's own where it is no part of a wider one.
+ */
 export function stretched(
   map: TransferFunction,
   first: number,
   last: number,
   axis: Axis = kStraight,
+  ends: { readonly from: number; readonly to: number } = endsOf(map),
 ): TransferFunction {
   const { along, back } = axis;
-  const start = along(map[0]?.value ?? 0);
-  const span = along(map[map.length - 1]?.value ?? 0) - start;
+  const start = along(ends.from);
+  const span = along(ends.to) - start;
   const next = map.map((p, i) => {
     const t = span > 0 ? (along(p.value) - start) / span : i / Math.max(1, map.length - 1);
     if (t === 0 || t === 1) return { ...p, value: t === 0 ? first : last };

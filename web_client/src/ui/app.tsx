@@ -20,6 +20,7 @@ import { MapEditor } from "./map_editor";
 import { MeasurePanel } from "./measure_panel";
 import { ModelPicker } from "./model_picker";
 import { Notices } from "./notices";
+import { PacePanel } from "./pace_panel";
 import { PaneGrid } from "./pane_grid";
 import type { AppPort } from "./port";
 import { Readout } from "./readout";
@@ -213,6 +214,7 @@ export function App({ panes, portOf, helpOpen, shareOpen }: Props) {
           <MeasurePanel state={state} port={port} />
           <DifferencePanel state={state} port={port} />
           <ExplainPanel state={state} port={port} />
+          <PacePanel state={state} />
           <Settings state={state}>
             <ClipEditor state={state} />
             <BackgroundPicker state={state} />

@@ -1,3 +1,4 @@
+import { useSignal } from "@preact/signals";
 import { useLayoutEffect, useRef } from "preact/hooks";
 import { isOfThisPicture } from "../state/accuracy";
 import type { AppState } from "../state/app_state";
@@ -67,6 +68,8 @@ function FigureList({ figures }: { readonly figures: Figures }) {
 
 /** What the colours stand for, and how far; the end of the scale can be moved. */
 function Legend({ state, port }: Props) {
+  // On a narrow screen it would hide most of what it explains.
+  const isRoomy = useSignal(matchMedia("(min-width: 720px)").matches);
   const range = state.differenceRange.value;
   const difference = state.difference.value;
   const now = difference && isOfThisPicture(state, difference) ? difference : undefined;
@@ -89,25 +92,25 @@ function Legend({ state, port }: Props) {
         <span>{formatNumber(range / 2, 3)}</span>
         <span>{end} and more</span>
       </div>
-      <label class="difference-range">
-        <span>Scale ends at</span>
-        <input
-          type="range"
-          min={kLeastPower}
-          max={kMostPower}
-          step={0.5}
-          value={Math.log2(range)}
-          aria-valuetext={`${end} of 255`}
-          onInput={(e) => {
-            state.differenceRange.value = 2 ** Number(e.currentTarget.value);
-          }}
-        />
-      </label>
-      {figures ? (
-        <FigureList figures={figures} />
-      ) : (
-        <p class="difference-waits">Waits for the exact picture.</p>
-      )}
+      {!figures && <p class="difference-waits">Waits for the exact picture.</p>}
+      <details open={isRoomy.value}>
+        <summary>Scale and figures</summary>
+        <label class="difference-range">
+          <span>Scale ends at</span>
+          <input
+            type="range"
+            min={kLeastPower}
+            max={kMostPower}
+            step={0.5}
+            value={Math.log2(range)}
+            aria-valuetext={`${end} of 255`}
+            onInput={(e) => {
+              state.differenceRange.value = 2 ** Number(e.currentTarget.value);
+            }}
+          />
+        </label>
+        {figures && <FigureList figures={figures} />}
+      </details>
       {now?.running && <progress aria-label="Compared so far" max={1} value={now.progress} />}
       {now && !now.running && now.step > 1 && (
         <p>Each square of {now.step} pixels by one of them.</p>

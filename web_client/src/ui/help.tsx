@@ -1,6 +1,5 @@
 import type { Signal } from "@preact/signals";
-import { useEffect, useRef } from "preact/hooks";
-import { IconButton } from "./icons";
+import { Dialog } from "./dialog";
 
 const kRows: readonly (readonly [keys: string, what: string])[] = [
   ["Drag, arrows", "Turn"],
@@ -25,6 +24,7 @@ const kClipRows: readonly (readonly [keys: string, what: string])[] = [
   ["Drag, arrows", "Move a plane; with Shift in small steps"],
   ["Page Up and Down, Home, End", "Far; to the ends of the data"],
   ["Delete", "Remove the plane"],
+  ["Square, arrows, Page Up and Down", "Move the whole box"],
 ];
 
 const kMapRows: readonly (readonly [keys: string, what: string])[] = [
@@ -54,26 +54,18 @@ function Keys({ rows }: { readonly rows: typeof kRows }) {
 
 /** Everything that hands can do here. */
 export function Help({ open }: { readonly open: Signal<boolean> }) {
-  const dialog = useRef<HTMLDialogElement>(null);
-  useEffect(() => {
-    if (open.value) dialog.current?.showModal();
-    else dialog.current?.close();
-  }, [open.value]);
+  if (!open.value) return null;
   const close = (): void => {
     open.value = false;
   };
   return (
-    <dialog ref={dialog} class="help" aria-labelledby="help-heading" onClose={close}>
-      <header>
-        <h2 id="help-heading">Controls</h2>
-        <IconButton icon="close" label="Close" onClick={close} />
-      </header>
+    <Dialog id="help-heading" heading="Controls" close={close}>
       <h3>Picture</h3>
       <Keys rows={kRows} />
       <h3>Handles of clip planes</h3>
       <Keys rows={kClipRows} />
       <h3>Colours and opacity</h3>
       <Keys rows={kMapRows} />
-    </dialog>
+    </Dialog>
   );
 }

@@ -171,13 +171,19 @@ export function SelectLine<T extends string | number>(props: SelectProps<T>) {
 interface CheckProps {
   readonly checked: boolean;
   readonly take: (checked: boolean) => void;
+  readonly disabled?: boolean | undefined;
   readonly children: ComponentChildren;
 }
 
-export function Check({ checked, take, children }: CheckProps) {
+export function Check({ checked, take, disabled, children }: CheckProps) {
   return (
     <label class="check">
-      <input type="checkbox" checked={checked} onChange={(e) => take(e.currentTarget.checked)} />
+      <input
+        type="checkbox"
+        checked={checked}
+        disabled={disabled}
+        onChange={(e) => take(e.currentTarget.checked)}
+      />
       {children}
     </label>
   );

@@ -9,17 +9,11 @@ import {
   usualRangeOf,
 } from "../state/actions";
 import type { AppState } from "../state/app_state";
-import {
-  canBeApart,
-  changePoints,
-  type MapTarget,
-  pointsOf,
-  targetsOf,
-} from "../state/map_targets";
+import { addPoint, canBeApart, type MapTarget, pointsOf, targetsOf } from "../state/map_targets";
 import { type Slot, usesColours, usesExtinction } from "../state/models";
 import { opacityFromExtinction } from "../transfer/opacity";
 import type { Axis } from "../transfer/scale";
-import { type TransferFunction, withColour, withPointAt } from "../transfer/transfer_function";
+import type { TransferFunction } from "../transfer/transfer_function";
 import { ScaleOptions } from "./field_picker";
 import { formatNumber, formatValue } from "./format";
 import { IconButton } from "./icons";
@@ -78,19 +72,16 @@ interface EditorProps extends Props {
   readonly look: Look;
 }
 
-/** Adds a point with the map's own value, or in the colour of the selected one, and selects it. */
-function addPoint(
+/** Adds a point, or one in the colour of the selected one, and selects it. */
+function addAndSelect(
   { state, slot, selected }: EditorProps,
   part: MapTarget["part"],
   value: number,
   inSelectedColour = false,
 ): void {
-  const { along } = axisOfSlot(state, slot);
-  const points = pointsOf(state, slot, part);
-  const { map, index } = withPointAt(points, value, along);
-  const colour = inSelectedColour ? points[selected[part].value]?.colour : undefined;
-  changePoints(state, slot, part, colour ? withColour(map, index, colour) : map);
-  selected[part].value = index;
+  const chosen = pointsOf(state, slot, part)[selected[part].value];
+  const colour = inSelectedColour ? chosen?.colour : undefined;
+  selected[part].value = addPoint(state, slot, part, value, colour);
 }
 
 /** How the plot is looked at: bars by their logarithm, a part of the range. */
@@ -157,7 +148,7 @@ function Plot(props: EditorProps) {
     const target = targets.find((t) => t.part === (onBar ? "colours" : "opacities")) ?? targets[0];
     if (!target) return;
     const value = valueAt(boxOf(state, slot, zoom.value, width), x);
-    addPoint(props, target.part, value, modified && target.showsColours);
+    addAndSelect(props, target.part, value, modified && target.showsColours);
   };
   return (
     <div class="map-plot">
@@ -217,7 +208,7 @@ function Tools(props: EditorProps) {
   const add = (part: MapTarget["part"]): void => {
     const points = pointsOf(state, slot, part);
     const value = placeForNewPoint(points, axisOfSlot(state, slot), selected[part].value);
-    if (value !== undefined) addPoint(props, part, value);
+    if (value !== undefined) addAndSelect(props, part, value);
   };
   return (
     <>
@@ -274,6 +265,7 @@ export function MapEditor({ state, slot }: Props) {
       {canBeApart(state, slot) && (
         <Check
           checked={mapEditOf(state, slot).apart !== undefined}
+          disabled={mapEditOf(state, slot).smooth !== undefined}
           take={(on) => switchApart(state, on, slot)}
         >
           Colour and opacity have points of their own

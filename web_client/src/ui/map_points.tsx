@@ -1,7 +1,7 @@
 import type { Signal } from "@preact/signals";
 import { drawnMap, endGesture, mapEditOf } from "../state/actions";
 import type { AppState } from "../state/app_state";
-import { changePoints, type MapTarget, pointsOf } from "../state/map_targets";
+import { changePoints, type MapTarget, pointsOf, removePoint } from "../state/map_targets";
 import type { Slot } from "../state/models";
 import {
   extinctionFromOpacity,
@@ -15,7 +15,6 @@ import {
   sampleAt,
   withColour,
   withMovedPoint,
-  withoutPoint,
 } from "../transfer/transfer_function";
 import type { PlotBox } from "./map_plot";
 import { PlotPoints } from "./plot_points";
@@ -49,9 +48,8 @@ export function deletePoint(
   selected: Signal<number>,
   index: number,
 ): void {
-  const points = pointsOf(state, slot, part);
-  if (isEnd(points, index)) return;
-  changePoints(state, slot, part, withoutPoint(points, index));
+  if (isEnd(pointsOf(state, slot, part), index)) return;
+  removePoint(state, slot, part, index);
   selected.value = Math.max(0, index - 1);
 }
 

@@ -1,7 +1,7 @@
 import {
   axisOfSlot,
   changeDensity,
-  changeMap,
+  changePart,
   changeSmooth,
   endGesture,
   mapEditOf,
@@ -37,8 +37,7 @@ export function ColourPresets({ state, slot }: Props) {
           aria-label={`${colours.name} colours`}
           style={{ backgroundImage: gradient(colours) }}
           onClick={() => {
-            const { map } = mapEditOf(state, slot);
-            changeMap(state, withColourMap(map, colours), undefined, slot);
+            changePart(state, "colours", (map) => withColourMap(map, colours), slot);
           }}
         />
       ))}
@@ -46,9 +45,8 @@ export function ColourPresets({ state, slot }: Props) {
         type="button"
         class="text-button"
         onClick={() => {
-          const { map } = mapEditOf(state, slot);
-          const turned = withReversedColours(map, axisOfSlot(state, slot));
-          changeMap(state, turned, undefined, slot);
+          const axis = axisOfSlot(state, slot);
+          changePart(state, "colours", (map) => withReversedColours(map, axis), slot);
         }}
       >
         Reverse
@@ -71,9 +69,9 @@ export function ColourPresets({ state, slot }: Props) {
 export function OpacityPresets({ state, slot }: Props) {
   const apply = (id: string): void => {
     const shape = kOpacityShapes.find((s) => s.id === id);
-    const { map } = mapEditOf(state, slot);
     const length = state.referenceLength.value;
-    if (shape) changeMap(state, withOpacityShape(map, shape, length), undefined, slot);
+    if (!shape) return;
+    changePart(state, "opacities", (map) => withOpacityShape(map, shape, length), slot);
   };
   return (
     <label class="line">

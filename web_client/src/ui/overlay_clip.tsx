@@ -1,7 +1,15 @@
 import { useRef } from "preact/hooks";
 import type { ClipPlane } from "../net/gen/volcast/v1/scene_pb";
-import { endGesture } from "../state/actions";
+import { changeScene, endGesture } from "../state/actions";
 import type { AppState } from "../state/app_state";
+import {
+  type BoxGrip,
+  boxDraggedBy,
+  boxMoveByKey,
+  boxOf,
+  middleOfBox,
+  moveBox,
+} from "../state/clip_box";
 import {
   draggedTo,
   type Grip,
@@ -85,6 +93,57 @@ function PlaneHandle({ state, index, handle, orbit }: PlaneProps) {
   );
 }
 
+interface BoxProps extends Props {
+  readonly box: Bounds;
+  readonly bounds: Bounds;
+  readonly orbit: Orbit;
+}
+
+/** The middle of a clip box, which moves all of it: by mouse, by touch and by keys. */
+function BoxHandle({ state, box, bounds, orbit }: BoxProps) {
+  const grip = useRef<BoxGrip | undefined>(undefined);
+  const at = projected(orbit, middleOfBox(box));
+  if (!at) return null;
+  const place = middleOfBox(box).map((x, i) =>
+    formatValue(x, (bounds.max[i] ?? 0) - (bounds.min[i] ?? 0)),
+  );
+  const release = (): void => {
+    if (grip.current) endGesture(state);
+    grip.current = undefined;
+  };
+  return (
+    <button
+      type="button"
+      class="clip-handle"
+      data-box=""
+      aria-label={`Clip box, all of it; middle ${place.join(", ")}`}
+      title="Move the box: drag, arrows, Page Up and Down"
+      style={{ left: `${100 * (0.5 + at.x)}%`, top: `${100 * (0.5 + at.y)}%` }}
+      onPointerDown={(e) => {
+        const from = pictureAt(e);
+        if (!from || e.button !== 0) return;
+        e.currentTarget.setPointerCapture(e.pointerId);
+        grip.current = { box, orbit, from };
+      }}
+      onPointerMove={(e) => {
+        const to = pictureAt(e);
+        if (grip.current && to) moveBox(state, grip.current.box, boxDraggedBy(grip.current, to));
+      }}
+      onPointerUp={release}
+      onPointerCancel={release}
+      onBlur={() => endGesture(state)}
+      onKeyDown={(e) => {
+        const by = boxMoveByKey(orbit, bounds, e.key, e.shiftKey);
+        if (!by && e.key !== "Delete") return;
+        e.preventDefault();
+        e.stopPropagation();
+        if (by) moveBox(state, box, by);
+        else changeScene(state, { clipPlanes: [] });
+      }}
+    />
+  );
+}
+
 /** Where a plane cuts the data's bounds; nothing where a part of that lies behind the eye. */
 function Outline({
   plane,
@@ -107,6 +166,7 @@ export function ClipHandles({ state }: Props) {
   const planes = state.scene.value?.clipPlanes ?? [];
   if (!orbit || !bounds) return null;
   const handles = planes.map((plane: ClipPlane, i) => handleOf(plane, i, bounds));
+  const box = boxOf(planes);
   return (
     <div class="overlay">
       <svg class="box-overlay clip-outlines" viewBox="-0.5 -0.5 1 1" aria-hidden="true">
@@ -119,6 +179,7 @@ export function ClipHandles({ state }: Props) {
         {handles.map(
           (h, i) => h && <PlaneHandle key={i} state={state} index={i} handle={h} orbit={orbit} />,
         )}
+        {box && <BoxHandle state={state} box={box} bounds={bounds} orbit={orbit} />}
       </div>
     </div>
   );

@@ -1,6 +1,6 @@
 import { type Person, Role } from "../net/gen/volcast/v1/session_pb";
 import type { AppState } from "../state/app_state";
-import { myself, noteOf, steers } from "../state/people";
+import { eachOnce, myself, noteOf, steers } from "../state/people";
 import type { AppPort } from "./port";
 import { ControlButton } from "./steer_note";
 
@@ -43,6 +43,7 @@ function Row({ state, port, person }: Props & { readonly person: Person }) {
 /** Who is in the view; one's own name, and what one can do about steering. */
 export function PeopleList({ state, port }: Props) {
   const me = myself(state);
+  const people = eachOnce(state.people.value);
   const joined = state.seat.value?.link !== undefined;
   return (
     <section aria-labelledby="people-heading">
@@ -58,7 +59,7 @@ export function PeopleList({ state, port }: Props) {
         />
       </label>
       <ul class="people">
-        {state.people.value.map((person) => (
+        {people.map((person) => (
           <Row key={person.id} state={state} port={port} person={person} />
         ))}
       </ul>
@@ -81,7 +82,7 @@ export function PeopleList({ state, port }: Props) {
           cameras go together.
         </p>
       )}
-      {me?.role === Role.CONTROL && state.people.value.length === 1 && (
+      {me?.role === Role.CONTROL && people.length === 1 && (
         <p class="hint">Nobody else is here. A link below brings others in.</p>
       )}
     </section>

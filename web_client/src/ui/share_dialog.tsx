@@ -2,7 +2,7 @@ import { type Signal, useSignal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 import type { AppState } from "../state/app_state";
 import { CopyField } from "./copy_field";
-import { IconButton } from "./icons";
+import { Dialog } from "./dialog";
 import { PeopleList } from "./people_list";
 import type { AppPort } from "./port";
 import { ShareLinks } from "./share_links";
@@ -53,20 +53,14 @@ function Snapshot({ port }: Pick<Props, "port">) {
 
 /** Everything about others: who is here, how more come, and how to pass on what is shown. */
 export function ShareDialog({ state, port, open }: Props) {
-  const dialog = useRef<HTMLDialogElement>(null);
-  useEffect(() => dialog.current?.showModal(), []);
   const close = (): void => {
     open.value = false;
   };
   return (
-    <dialog ref={dialog} class="help share" aria-labelledby="share-heading" onClose={close}>
-      <header>
-        <h2 id="share-heading">Share</h2>
-        <IconButton icon="close" label="Close" onClick={close} />
-      </header>
+    <Dialog id="share-heading" heading="Share" look="share" close={close}>
       <PeopleList state={state} port={port} />
       <ShareLinks state={state} port={port} />
       <Snapshot port={port} />
-    </dialog>
+    </Dialog>
   );
 }
