@@ -24,14 +24,13 @@ function Row({ state, row }: Props & { readonly row: AccuracyRow }) {
         </button>
       </th>
       {row.refusal ? (
-        <td colSpan={5}>{row.refusal}</td>
+        <td colSpan={4}>{row.refusal}</td>
       ) : (
         <>
           <td>{formatMs(row.medianMs)}</td>
           <td>{errorText(row.rmsError)}</td>
           <td>{errorText(row.maxError)}</td>
           <td>{formatNumber(100 * row.shareOver255, 2)} %</td>
-          <td>{row.onFront ? "yes" : ""}</td>
         </>
       )}
     </tr>
@@ -46,6 +45,7 @@ export function AccuracyTable({ state }: Props) {
     // biome-ignore lint/a11y/noNoninteractiveTabindex: what scrolls must be reached by keys
     <section class="accuracy-table" tabIndex={0} aria-label="Accuracy and cost">
       <table>
+        <caption>In bold: no other way is both faster and closer.</caption>
         <thead>
           <tr>
             <th scope="col">Way</th>
@@ -53,7 +53,6 @@ export function AccuracyTable({ state }: Props) {
             <th scope="col">RMS, 1/255</th>
             <th scope="col">Most, 1/255</th>
             <th scope="col">Over 1/255</th>
-            <th scope="col">Front</th>
           </tr>
         </thead>
         <tbody>
