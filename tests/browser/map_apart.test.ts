@@ -83,6 +83,7 @@ describe("a smooth curve of opacities", () => {
   const chosen = () => points("Opacity").and(client.page.locator('[aria-pressed="true"]'));
 
   it("has points of its own, and one that is added leaves the picture as it is to the bit", async () => {
+    await client.after(() => client.page.getByRole("button", { name: "Start over" }).click());
     await client.after(() => smooth().check());
     expect(await apart().isChecked()).toBe(true);
     expect(await apart().isDisabled()).toBe(true);

@@ -155,6 +155,7 @@ describe("a transferFunction control", () => {
   it("is edited by mouse, by keyboard and in numbers", async () => {
     await apply(kMapCode);
     const declared = await picture();
+    await client.page.locator(".shader-map .map-ground").scrollIntoViewIfNeeded();
     const ground = await client.page.locator(".shader-map .map-ground").boundingBox();
     if (!ground) throw new Error("the editor has no ground");
     await client.after(async () => {
