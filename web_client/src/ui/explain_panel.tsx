@@ -1,5 +1,6 @@
 import { useSignal, useSignalEffect } from "@preact/signals";
 import type { AppState } from "../state/app_state";
+import { FoldedSection } from "./folded_section";
 import { lazy } from "./lazy";
 import type { AppPort } from "./port";
 
@@ -18,18 +19,8 @@ export function ExplainPanel({ state, port }: Props) {
   });
   if (!state.layer.value) return null;
   return (
-    <section class="section">
-      <details
-        class="explain"
-        onToggle={(e) => {
-          open.value = e.currentTarget.open;
-        }}
-      >
-        <summary>
-          <h2>How it is drawn</h2>
-        </summary>
-        {open.value && <PlanList state={state} port={port} />}
-      </details>
-    </section>
+    <FoldedSection heading="How it is drawn" open={open}>
+      <PlanList state={state} port={port} />
+    </FoldedSection>
   );
 }

@@ -1,3 +1,4 @@
+import type { JSX } from "preact";
 import { useRef } from "preact/hooks";
 import type { ClipPlane } from "../net/gen/volcast/v1/scene_pb";
 import { changeScene, endGesture } from "../state/actions";
@@ -45,16 +46,44 @@ function pictureAt(event: PointerEvent): PicturePoint | undefined {
   };
 }
 
-/** A plane's handle: moved by mouse, by touch and by keys. */
-function PlaneHandle({ state, index, handle, orbit }: PlaneProps) {
-  const grip = useRef<Grip | undefined>(undefined);
-  const at = projected(orbit, handle.at);
-  if (!at) return null;
-  const { low, high, place, name } = handle;
+/** What drags a handle: `take` says what is kept of where it was taken, `move` goes on from that. */
+function useDrag<T extends object>(
+  state: AppState,
+  take: (from: PicturePoint) => T,
+  move: (grip: T, to: PicturePoint) => void,
+) {
+  const grip = useRef<T | undefined>(undefined);
   const release = (): void => {
     if (grip.current) endGesture(state);
     grip.current = undefined;
   };
+  return {
+    onPointerDown(e: JSX.TargetedPointerEvent<HTMLElement>) {
+      const from = pictureAt(e);
+      if (!from || e.button !== 0) return;
+      e.currentTarget.setPointerCapture(e.pointerId);
+      grip.current = take(from);
+    },
+    onPointerMove(e: JSX.TargetedPointerEvent<HTMLElement>) {
+      const to = pictureAt(e);
+      if (grip.current && to) move(grip.current, to);
+    },
+    onPointerUp: release,
+    onPointerCancel: release,
+    onBlur: () => endGesture(state),
+  };
+}
+
+/** A plane's handle: moved by mouse, by touch and by keys. */
+function PlaneHandle({ state, index, handle, orbit }: PlaneProps) {
+  const drag = useDrag<Grip>(
+    state,
+    (from) => ({ handle, orbit, from }),
+    (grip, to) => moveHandle(state, index, draggedTo(grip, to)),
+  );
+  const at = projected(orbit, handle.at);
+  if (!at) return null;
+  const { low, high, place, name } = handle;
   return (
     <div
       class="clip-handle"
@@ -68,19 +97,7 @@ function PlaneHandle({ state, index, handle, orbit }: PlaneProps) {
       data-index={index}
       data-axis={name.slice(-1)}
       style={{ left: `${100 * (0.5 + at.x)}%`, top: `${100 * (0.5 + at.y)}%` }}
-      onPointerDown={(e) => {
-        const from = pictureAt(e);
-        if (!from || e.button !== 0) return;
-        e.currentTarget.setPointerCapture(e.pointerId);
-        grip.current = { handle, orbit, from };
-      }}
-      onPointerMove={(e) => {
-        const to = pictureAt(e);
-        if (grip.current && to) moveHandle(state, index, draggedTo(grip.current, to));
-      }}
-      onPointerUp={release}
-      onPointerCancel={release}
-      onBlur={() => endGesture(state)}
+      {...drag}
       onKeyDown={(e) => {
         const next = placeByKey(handle, e.key, e.shiftKey);
         if (next === undefined && e.key !== "Delete") return;
@@ -101,16 +118,16 @@ interface BoxProps extends Props {
 
 /** The middle of a clip box, which moves all of it: by mouse, by touch and by keys. */
 function BoxHandle({ state, box, bounds, orbit }: BoxProps) {
-  const grip = useRef<BoxGrip | undefined>(undefined);
+  const drag = useDrag<BoxGrip>(
+    state,
+    (from) => ({ box, orbit, from }),
+    (grip, to) => moveBox(state, grip.box, boxDraggedBy(grip, to)),
+  );
   const at = projected(orbit, middleOfBox(box));
   if (!at) return null;
   const place = middleOfBox(box).map((x, i) =>
     formatValue(x, (bounds.max[i] ?? 0) - (bounds.min[i] ?? 0)),
   );
-  const release = (): void => {
-    if (grip.current) endGesture(state);
-    grip.current = undefined;
-  };
   return (
     <button
       type="button"
@@ -119,19 +136,7 @@ function BoxHandle({ state, box, bounds, orbit }: BoxProps) {
       aria-label={`Clip box, all of it; middle ${place.join(", ")}`}
       title="Move the box: drag, arrows, Page Up and Down"
       style={{ left: `${100 * (0.5 + at.x)}%`, top: `${100 * (0.5 + at.y)}%` }}
-      onPointerDown={(e) => {
-        const from = pictureAt(e);
-        if (!from || e.button !== 0) return;
-        e.currentTarget.setPointerCapture(e.pointerId);
-        grip.current = { box, orbit, from };
-      }}
-      onPointerMove={(e) => {
-        const to = pictureAt(e);
-        if (grip.current && to) moveBox(state, grip.current.box, boxDraggedBy(grip.current, to));
-      }}
-      onPointerUp={release}
-      onPointerCancel={release}
-      onBlur={() => endGesture(state)}
+      {...drag}
       onKeyDown={(e) => {
         const by = boxMoveByKey(orbit, bounds, e.key, e.shiftKey);
         if (!by && e.key !== "Delete") return;
