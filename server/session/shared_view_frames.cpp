@@ -69,10 +69,8 @@ void SharedView::draw(const std::shared_ptr<Rendition>& rendition, TimePoint now
                                    .tag = lastTag_,
                                    .scene = *state_.scene,
                                    .size = rendition->key().size,
+                                   .hurried = !rendition->key().fullAccuracy,
                                    .viewId = id_};
-    if (!rendition->key().fullAccuracy) {
-        request.scene.accuracy = {.kind = scene::Accuracy::Kind::kFastest};
-    }
     outbox_.put([&render = parts_.render, request = std::move(request)]() mutable {
         render.submit(std::move(request));
     });

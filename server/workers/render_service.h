@@ -31,6 +31,7 @@ struct RenderRequest {
     std::uint64_t tag = 0;   ///< Comes back with the picture; the session puts input_seq here.
     scene::Scene scene;
     scene::PictureSize size{512, 512};
+    bool hurried = false;  ///< Drawn as accuracy kFastest, whatever the scene asks for.
     bool wantFloat = false;
     std::string viewId = {};  ///< What the log calls the view.
     bool background = false;  ///< Drawn when no view waits for a picture.

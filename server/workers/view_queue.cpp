@@ -9,6 +9,17 @@ namespace {
 
 constexpr int kLossesToGiveUp = 2;
 
+bool samePicture(const RenderRequest& a, const RenderRequest& b) {
+    return a.size == b.size && a.hurried == b.hurried && a.scene == b.scene;
+}
+
+/// Camera, size and hurry aside.
+bool sameScene(const RenderRequest& a, const RenderRequest& b) {
+    scene::Scene scene = b.scene;
+    scene.camera = a.scene.camera;
+    return a.scene == scene;
+}
+
 }  // namespace
 
 void ViewQueue::wait(std::uint64_t id, View& view, TimedRequest request) {
@@ -16,25 +27,18 @@ void ViewQueue::wait(std::uint64_t id, View& view, TimedRequest request) {
     view.waiting = std::move(request);
 }
 
-bool ViewQueue::same(const Held& held, const RenderRequest& request) {
-    if (held.size != request.size) return false;
-    scene::Scene scene = request.scene;
-    if (held.fromAnywhere) scene.camera = held.scene.camera;
-    return held.scene == scene;
-}
-
 bool ViewQueue::holds(const RenderRequest& request) const {
     const auto view = views_.find(request.view);
     return view != views_.end() && std::ranges::any_of(view->second.held, [&](const Held& held) {
-               return same(held, request);
+               return held.however ? sameScene(held.request, request)
+                                   : samePicture(held.request, request);
            });
 }
 
 void ViewQueue::hold(View& view, const RenderRequest& request) {
-    Held held{.scene = request.scene, .size = request.size};
-    held.fromAnywhere = !view.lastGood || !same(held, *view.lastGood);
+    const bool drawnOtherwise = view.lastGood && sameScene(*view.lastGood, request);
     if (view.held.size() == kMostHeld) view.held.pop_front();
-    view.held.push_back(std::move(held));
+    view.held.push_back({.request = request, .however = !drawnOtherwise});
 }
 
 void ViewQueue::forgive() {
@@ -91,8 +95,7 @@ ViewQueue::Loss ViewQueue::lost(std::optional<RenderRequest> inFlight, Clock::ti
     if (found == views_.end()) return loss;
 
     View& view = found->second;
-    loss.proven = view.lastGood && view.lastGood->scene == inFlight->scene &&
-                  view.lastGood->size == inFlight->size;
+    loss.proven = view.lastGood && samePicture(*view.lastGood, *inFlight);
     std::erase(turns_, suspect);
     if (++view.lossesInARow >= kLossesToGiveUp) {
         view.lossesInARow = kLossesToGiveUp - 1;

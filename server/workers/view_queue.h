@@ -25,8 +25,9 @@ class ViewQueue {
 public:
     using Clock = std::chrono::steady_clock;
 
-    /// True for what has taken two workers down: it is not to be submitted. A moved camera does not
-    /// make it another request, unless the view has drawn the same from elsewhere.
+    /// True for what has taken two workers down: it is not to be submitted. Neither a moved camera
+    /// nor what pacing changes (size, hurry) makes a scene another one, unless the view has drawn
+    /// it with others.
     [[nodiscard]] bool holds(const RenderRequest& request) const;
     /// Data has changed: what was held may be another picture now.
     void forgive();
@@ -69,9 +70,8 @@ public:
 private:
     static constexpr std::size_t kMostHeld = 8;  ///< Of one view; the oldest is forgiven.
     struct Held {
-        scene::Scene scene;
-        scene::PictureSize size;
-        bool fromAnywhere = true;  ///< The camera does not matter.
+        RenderRequest request;
+        bool however = true;  ///< Camera, size and hurry do not matter.
     };
     struct View {
         std::optional<TimedRequest> waiting;
@@ -79,7 +79,6 @@ private:
         int lossesInARow = 0;
         std::deque<Held> held = {};
     };
-    static bool same(const Held& held, const RenderRequest& request);
     static void hold(View& view, const RenderRequest& request);
     void wait(std::uint64_t id, View& view, TimedRequest request);
 

@@ -4,7 +4,7 @@ import { describe, expect, it } from "vitest";
 import { violations } from "./support/accessibility";
 import { launch } from "./support/browser";
 import { Client } from "./support/client";
-import { decodePng, difference } from "./support/pixels";
+import { difference } from "./support/pixels";
 import { screenshotFolder } from "./support/server";
 import { setUp } from "./support/set_up";
 
@@ -147,9 +147,8 @@ describe("layout", () => {
     const [width = 0, height = 0] = (await client.fact("size")).split("x").map(Number);
     expect(Math.abs(width - (box?.width ?? 0) * deviceScaleFactor)).toBeLessThan(1);
     expect(Math.abs(height - (box?.height ?? 0) * deviceScaleFactor)).toBeLessThan(1);
-    if (deviceScaleFactor === 2 && client.lossless) {
-      const sent = decodePng(client.lossless.payload);
-      expect(difference(await client.pixels(), sent).largest).toBe(0);
+    if (deviceScaleFactor === 2) {
+      expect(difference(await client.pixels(), await client.sent()).largest).toBe(0);
     }
     await client.close();
   });

@@ -2,7 +2,7 @@ import { join } from "node:path";
 import { beforeAll, describe, expect, it } from "vitest";
 import { violations } from "./support/accessibility";
 import type { Client } from "./support/client";
-import { decodePng, hashOf } from "./support/pixels";
+import { hashOf } from "./support/pixels";
 import { screenshotFolder } from "./support/server";
 import { setUp } from "./support/set_up";
 
@@ -63,8 +63,7 @@ describe("what is sent", () => {
     await client.page.screenshot({ path: join(screenshotFolder(), "pins-760.png") });
     // The exact picture is whole all the same.
     expect(await client.fact("size")).toBe(full);
-    const sent = client.lossless && decodePng(client.lossless.payload);
-    expect(sent && hashOf(sent)).toBe(hashOf(await client.pixels()));
+    expect(hashOf(await client.sent())).toBe(hashOf(await client.pixels()));
     await client.page.getByRole("button", { name: "All automatic" }).click();
     await choose("Size", "Full");
     expect([...(await sizesMoving())]).toEqual([full]);

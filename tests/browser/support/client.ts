@@ -1,5 +1,6 @@
 import type { Browser, BrowserContextOptions, Page } from "playwright-core";
 import { decodeFrame, type Frame, isFrame } from "../../../web_client/src/net/framing";
+import { Codec } from "../../../web_client/src/net/gen/volcast/v1/frame_pb";
 import { decodePng, type Pixels } from "./pixels";
 
 const kPatienceMs = 60_000;
@@ -128,6 +129,26 @@ export class Client {
     const png = await this.page.locator(".picture").nth(view).screenshot();
     await this.#coverPicture("");
     return decodePng(png);
+  }
+
+  /** The newest lossless picture that came: a PNG by our own decoder, a WebP by the page's. */
+  async sent(): Promise<Pixels> {
+    if (!this.lossless) throw new Error("no lossless frame came over the wire");
+    const { header, payload } = this.lossless;
+    if (header.codec === Codec.PNG) return decodePng(payload);
+    const base64 = Buffer.from(payload).toString("base64");
+    const { width, height, data } = await this.page.evaluate(async (text) => {
+      const bytes = Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
+      const bitmap = await createImageBitmap(new Blob([bytes], { type: "image/webp" }));
+      const context = new OffscreenCanvas(bitmap.width, bitmap.height).getContext("2d");
+      if (!context) throw new Error("the page has no 2D canvas");
+      context.drawImage(bitmap, 0, 0);
+      const pixels = context.getImageData(0, 0, bitmap.width, bitmap.height).data;
+      let packed = "";
+      for (const byte of pixels) packed += String.fromCharCode(byte);
+      return { width: bitmap.width, height: bitmap.height, data: btoa(packed) };
+    }, base64);
+    return { width, height, data: Uint8Array.from(Buffer.from(data, "base64")) };
   }
 
   /** Shows or hides what lies over the picture; the page's policy allows no style of ours. */

@@ -145,8 +145,13 @@ TEST(ViewQueue, WhatWasGivenUpIsHeldWhereverItIsSeenFrom) {
     other.view = 2;
     EXPECT_FALSE(queue.holds(other)) << "another view";
     other = bad;
+    other.scene.accuracy = {.kind = scene::Accuracy::Kind::kFastest};
+    EXPECT_FALSE(queue.holds(other)) << "another accuracy, of the user's choice";
+    other = bad;
     other.size = {7, 7};
-    EXPECT_FALSE(queue.holds(other)) << "another size";
+    EXPECT_TRUE(queue.holds(other)) << "pacing has made it smaller";
+    other.hurried = true;
+    EXPECT_TRUE(queue.holds(other)) << "and less accurate";
     queue.forgive();
     EXPECT_FALSE(queue.holds(bad));
 }
@@ -163,6 +168,22 @@ TEST(ViewQueue, OfASceneThatWasDrawnFromElsewhereTheCameraIsHeld) {
     queue.lost(queue.next()->request, kNow);
     EXPECT_TRUE(queue.holds(bad));
     EXPECT_FALSE(queue.holds(request(1, 3)));
+}
+
+TEST(ViewQueue, OfASceneThatWasDrawnSmallerOrInAHurryTheRestIsHeld) {
+    for (const bool hurried : {false, true}) {
+        ViewQueue queue;
+        RenderRequest good = request(1, 1);
+        good.hurried = hurried;
+        if (!hurried) good.size = {7, 7};
+        queue.submit(good, kNow);
+        queue.succeeded(queue.next()->request);
+        queue.submit(request(1, 2), kNow);
+        EXPECT_FALSE(queue.lost(queue.next()->request, kNow).proven);
+        queue.lost(queue.next()->request, kNow);
+        EXPECT_TRUE(queue.holds(request(1, 3)));
+        EXPECT_FALSE(queue.holds(good));
+    }
 }
 
 TEST(ViewQueue, WhatWasDrawnBeforeIsNotHeldForALaterLoss) {
