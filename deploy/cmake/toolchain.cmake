@@ -17,7 +17,7 @@ endif()
 
 # -Wrestrict warns of std::string's own operator+ in GCC 12 (GCC bug 105651).
 add_compile_options(-Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Wconversion
-                    -Wno-sign-conversion -Wno-restrict)
+                    -Wno-sign-conversion $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
 if(VOLCAST_WARNINGS_AS_ERRORS)
     add_compile_options(-Werror)
 endif()
@@ -25,6 +25,7 @@ if(VOLCAST_ASSERTS)
     string(REPLACE "-DNDEBUG" "" CMAKE_CXX_FLAGS_RELEASE "${CMAKE_CXX_FLAGS_RELEASE}")
 endif()
 if(VOLCAST_SANITIZE)
+    add_compile_definitions(VOLCAST_SANITIZED)
     add_compile_options(-fsanitize=${VOLCAST_SANITIZE} -fno-omit-frame-pointer -O1)
     add_link_options(-fsanitize=${VOLCAST_SANITIZE})
 endif()

@@ -1,12 +1,15 @@
 #!/usr/bin/env bash
-# Installs what building and running Volcast (and, with --test, testing it) needs, on Debian 12.
-# Does nothing, without a network, where everything is there already.
+# Installs what building and running Volcast needs on Debian 12; with --test also what testing it
+# needs, with --dev that and the compiler of sanitizers and fuzzing. Does nothing, without a network,
+# where everything is there already.
 set -euo pipefail
 
-if [ "${1:-}" = --help ]; then
-    echo "usage: deploy/dev/setup.sh [--test]"
-    exit 0
-fi
+usage="usage: deploy/dev/setup.sh [--test|--dev]"
+case "${1:-}" in
+    --help | -h) echo "$usage"; exit 0 ;;
+    "" | --test | --dev) ;;
+    *) echo "there is no option '$1'; $usage" >&2; exit 2 ;;
+esac
 
 packages=(
     # tools
@@ -21,8 +24,11 @@ packages=(
     # the build, googletest and benchmark included: one configuration for users and tests
     libgtest-dev libgmock-dev libbenchmark-dev libpng-dev
 )
-if [ "${1:-}" = --test ]; then
+if [ -n "${1:-}" ]; then
     packages+=(chromium clang-format-14 glslang-tools python3-websockets)
+fi
+if [ "${1:-}" = --dev ]; then
+    packages+=(clang-14 libclang-rt-14-dev clang-tidy-14)
 fi
 # Any Node.js from 18 on will do; Debian 12's own is 18.
 node_major=$(node --version 2>/dev/null | sed 's/^v\([0-9]*\).*/\1/' || true)

@@ -12,7 +12,7 @@ namespace {
 constexpr std::uint64_t kPixels = 256;  // Compared, of a small picture of the same view.
 constexpr int kLongerSide = 96;
 constexpr std::size_t kMostKept = 16;
-/// Longer side of the pictures of voxels that are timed; other views wait meanwhile.
+/// Longer side of the pictures of voxels that are timed.
 constexpr int kTimedSide = 128;
 constexpr int kTimedFrames = 2;
 
@@ -104,8 +104,9 @@ Result<plan::SceneEvidence> EvidenceKeeper::of(const scene::Scene& scene, scene:
     return evidence;
 }
 
-Result<double> EvidenceKeeper::timeOf(const scene::Scene& scene, scene::PictureSize size,
-                                      const Candidate& candidate) {
+Result<std::optional<double>> EvidenceKeeper::timeOf(const scene::Scene& scene,
+                                                     scene::PictureSize size,
+                                                     const Candidate& candidate) {
     Job job{.scene = scene,
             .size = smallOf(size, kTimedSide),
             .aim = Aim::kTime,
@@ -115,30 +116,50 @@ Result<double> EvidenceKeeper::timeOf(const scene::Scene& scene, scene::PictureS
     scene::Layer& own = job.scene.layers[candidate.layer];
     own.visible = true;
     own.integrator = candidate.integrator;
-    while (true) {  // Parts end: each draws a picture.
-        const auto measured = meter_.advance(job);
-        if (!measured) return measured.error();
-        if (*measured) return (*measured)->medianMs * pixelsOf(size) / pixelsOf(job.size);
-    }
+    const auto measured = meter_.advance(job);
+    if (!measured) return measured.error();
+    if (!*measured) return std::optional<double>{};
+    return std::optional{(*measured)->medianMs * pixelsOf(size) / pixelsOf(job.size)};
 }
 
-Result<plan::SceneEvidence> EvidenceKeeper::estimates(const scene::Scene& scene,
-                                                      scene::PictureSize size) {
+Result<EvidenceKeeper::Estimating> EvidenceKeeper::beginEstimates(const scene::Scene& scene,
+                                                                  scene::PictureSize size) {
     auto evidence = of(scene, size);
-    if (!evidence) return evidence;
+    if (!evidence) return evidence.error();
+    Estimating begun{.scene = scene, .size = size, .evidence = *std::move(evidence)};
     for (std::size_t i = 0; i < scene.layers.size(); ++i) {
-        const auto rows = evidence->find(scene.layers[i].id);
-        if (rows == evidence->end() || isMesh(scene.layers[i])) continue;
-        for (plan::Evidence& one : rows->second) {
-            const auto ms = timeOf(scene, size, {.layer = i, .integrator = one.integrator});
-            if (!ms && ms.error().code == ErrorCode::kDeviceLost) return ms.error();
-            if (ms) one.predictedMs = *ms;
+        const auto rows = begun.evidence.find(scene.layers[i].id);
+        if (rows == begun.evidence.end() || isMesh(scene.layers[i])) continue;
+        for (const plan::Evidence& one : rows->second) {
+            begun.untimed.push_back({.layer = i, .integrator = one.integrator});
         }
     }
-    return evidence;
+    return begun;
+}
+
+Result<std::optional<plan::SceneEvidence>> EvidenceKeeper::advanceEstimates(
+    const scene::Scene& scene, scene::PictureSize size) {
+    if (!estimating_ || estimating_->scene != scene || estimating_->size != size) {
+        auto begun = beginEstimates(scene, size);
+        if (!begun) return begun.error();
+        estimating_ = *std::move(begun);
+    }
+    if (!estimating_->untimed.empty()) {
+        const Candidate& candidate = estimating_->untimed.front();
+        const auto ms = timeOf(scene, size, candidate);
+        if (!ms && ms.error().code == ErrorCode::kDeviceLost) return ms.error();
+        if (ms && !*ms) return std::optional<plan::SceneEvidence>{};
+        auto& rows = estimating_->evidence.at(scene.layers[candidate.layer].id);
+        const auto row = std::ranges::find(rows, candidate.integrator, &plan::Evidence::integrator);
+        if (ms) row->predictedMs = **ms;
+        estimating_->untimed.pop_front();
+        if (!estimating_->untimed.empty()) return std::optional<plan::SceneEvidence>{};
+    }
+    return std::optional{std::exchange(estimating_, std::nullopt)->evidence};
 }
 
 void EvidenceKeeper::forget(const std::string& dataset) {
+    estimating_.reset();
     std::erase_if(known_, [&dataset](const Known& one) {
         return std::ranges::any_of(one.scene.layers, [&dataset](const scene::Layer& layer) {
             return layer.dataset == dataset;

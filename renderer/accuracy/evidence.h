@@ -1,7 +1,9 @@
 #pragma once
 
+#include <deque>
 #include <list>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -58,10 +60,12 @@ public:
     /// Errors: kDeviceLost.
     Result<plan::SceneEvidence> of(const scene::Scene& scene, scene::PictureSize size);
     /// The same, and what a picture takes of voxels, layer by layer: from the times of smaller
-    /// pictures of this very view, drawn now in each way, for as many pixels as `size` has.
+    /// pictures of this very view, drawn now in each way, for as many pixels as `size` has. In
+    /// parts of one picture at most: empty: to be called again with the same; others begin anew.
     ///
     /// Errors: kDeviceLost.
-    Result<plan::SceneEvidence> estimates(const scene::Scene& scene, scene::PictureSize size);
+    Result<std::optional<plan::SceneEvidence>> advanceEstimates(const scene::Scene& scene,
+                                                                scene::PictureSize size);
     /// To be called when the dataset is replaced or removed.
     void forget(const std::string& dataset);
 
@@ -76,14 +80,23 @@ private:
     [[nodiscard]] bool isMesh(const scene::Layer& layer) const;
     Result<const Known*> known(const scene::Scene& scene, scene::PictureSize size,
                                std::size_t layer);
-    /// Milliseconds of a picture of one layer, drawn as the candidate says.
-    Result<double> timeOf(const scene::Scene& scene, scene::PictureSize size,
-                          const Candidate& candidate);
+    /// Estimates between their parts.
+    struct Estimating {
+        scene::Scene scene;
+        scene::PictureSize size{0};
+        plan::SceneEvidence evidence = {};
+        std::deque<Candidate> untimed = {};  ///< The first is at hand.
+    };
+    Result<Estimating> beginEstimates(const scene::Scene& scene, scene::PictureSize size);
+    /// Milliseconds of a picture of one layer, drawn as the candidate says; empty: not known yet.
+    Result<std::optional<double>> timeOf(const scene::Scene& scene, scene::PictureSize size,
+                                         const Candidate& candidate);
 
     scene::Renderer& renderer_;
     Meter& meter_;
     Costs costs_;
     std::list<Known> known_;  ///< The last used first.
+    std::optional<Estimating> estimating_;
 };
 
 }  // namespace volcast::accuracy

@@ -100,7 +100,7 @@ Result<void> enterSandbox(const SandboxPolicy& policy) {
 
 }  // namespace volcast::base
 
-#ifdef __SANITIZE_ADDRESS__
+#ifdef VOLCAST_SANITIZED
 /// LeakSanitizer asks at the end of a process; it looks for leaks with ptrace, which is refused.
 extern "C" int __lsan_is_turned_off() {  // NOLINT(bugprone-reserved-identifier)
     return volcast::base::insideSandbox ? 1 : 0;

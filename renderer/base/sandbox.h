@@ -8,9 +8,9 @@
 
 namespace volcast::base {
 
-/// Whether maxAddressSpaceBytes is kept. Not in a build with ASan or TSan: their shadow memory
-/// alone takes terabytes of addresses.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+/// Whether maxAddressSpaceBytes is kept. Not in a build with sanitizers: the shadow memory of ASan
+/// or TSan alone takes terabytes of addresses.
+#ifdef VOLCAST_SANITIZED
 inline constexpr bool kLimitsAddressSpace = false;
 #else
 inline constexpr bool kLimitsAddressSpace = true;

@@ -230,15 +230,16 @@ Result<void> Loop::measure(const wire::Measure& request) {
 }
 
 Result<std::optional<accuracy::Measurement>> Loop::advance(const accuracy::Job& job) {
+    using Part = std::optional<accuracy::Measurement>;
     if (job.aim == accuracy::Aim::kCandidate) return meter_.advance(job);
-    const bool estimates = job.aim == accuracy::Aim::kEstimates;
-    const auto evidence =
-        estimates ? evidence_.estimates(job.scene, job.size) : evidence_.of(job.scene, job.size);
+    if (job.aim == accuracy::Aim::kEstimates) {
+        auto estimates = evidence_.advanceEstimates(job.scene, job.size);
+        if (!estimates) return estimates.error();
+        return *estimates ? Part{{.estimates = **std::move(estimates)}} : Part{};
+    }
+    const auto evidence = evidence_.of(job.scene, job.size);
     if (!evidence) return evidence.error();
-    if (!estimates) return meter_.advance(job, *evidence);
-    accuracy::Measurement measured;
-    measured.estimates = *evidence;
-    return measured;
+    return meter_.advance(job, *evidence);
 }
 
 Result<void> Loop::pick(const wire::Pick& request) {
