@@ -1,104 +1,14 @@
 // Several viewers of one view: what is drawn, what is encoded, who is told what.
 #include <atomic>
-#include <condition_variable>
-#include <thread>
-
-#include <gtest/gtest.h>
 
 #include "renderer/worker/scene_message.h"
-#include "tests/unit/session/scripted_render.h"
+#include "tests/unit/session/shared_view_fixture.h"
 
 namespace volcast::session {
 namespace {
 
 using test::drawn;
-using test::importCube;
-using test::ScriptedRender;
-
-class SharedViewTest : public testing::Test {
-protected:
-    void SetUp() override {
-        CatalogueDesc desc;
-        desc.importer = importCube;
-        catalogue = *Catalogue::create(std::move(desc), render);
-        events = router.events();
-        const std::string id = catalogue->list().datasets(0).id();
-        ASSERT_TRUE(catalogue->require(id).has_value());
-        while (!catalogue->standing(id).loaded) std::this_thread::yield();
-        const LinkKey key = *LinkKey::random();
-        views = std::make_unique<Views>(ViewsDesc{.parts = {.render = render,
-                                                            .catalogue = *catalogue,
-                                                            .router = router,
-                                                            .encoders = encoders},
-                                                  .key = key});
-        v1::OpenView open;
-        open.set_dataset(id);
-        open.set_input_seq(1);
-        view = *views->open(open);
-    }
-    void TearDown() override {
-        view.reset();
-        views->clear();
-        catalogue.reset();
-    }
-    ViewerId join(scene::PictureSize size = {8, 6}, v1::Role role = v1::ROLE_CONTROL) {
-        return *view->join({.number = 1,
-                            .codecs = {},
-                            .size = size,
-                            .wake =
-                                [this] {
-                                    const std::lock_guard lock{mutex};
-                                    ++wakes;
-                                    woken.notify_all();
-                                }},
-                           {.person = ++people, .name = "p" + std::to_string(people), .role = role},
-                           Clock::now());
-    }
-    void look(ViewerId viewer, std::uint64_t seq) { look(viewer, seq, static_cast<double>(seq)); }
-    void look(ViewerId viewer, std::uint64_t seq, double x) {
-        v1::Update update;
-        update.set_input_seq(seq);
-        v1::Camera& camera = *update.mutable_camera();
-        camera.mutable_eye()->set_x(x);
-        camera.mutable_center();
-        camera.mutable_up()->set_z(1);
-        camera.set_fovy_degrees(40);
-        ASSERT_TRUE(view->update(viewer, update, Clock::now()).has_value());
-    }
-    /// What the renderer was asked for last.
-    workers::RenderRequest newest() {
-        EXPECT_TRUE(render.has(render.requests, view->counts().drawsAsked));
-        const std::lock_guard lock{render.mutex};
-        return render.requests.back();
-    }
-    void drawLast() { events.rendered(drawn(newest())); }
-    /// The viewer's next frame, as encoders bring it.
-    std::optional<ReadyFrame> frameOf(ViewerId viewer) {
-        const auto until = Clock::now() + std::chrono::seconds{30};
-        while (Clock::now() < until) {
-            view->tick(viewer, Clock::now());
-            if (auto frame = view->takeFrame(viewer, Clock::now())) return frame;
-            std::unique_lock lock{mutex};
-            woken.wait_for(lock, std::chrono::milliseconds{20});
-        }
-        return std::nullopt;
-    }
-    void ack(ViewerId viewer, std::uint32_t sequence) {
-        view->acked(viewer, {.sequence = sequence}, Clock::now());
-    }
-
-    ScriptedRender render;
-    ViewRouter router;
-    workers::RenderEvents events;
-    std::unique_ptr<Catalogue> catalogue;
-    std::mutex mutex;
-    std::condition_variable woken;
-    int wakes = 0;
-    std::uint32_t people = 0;
-    std::unique_ptr<Views> views;
-    std::shared_ptr<SharedView> view;
-    EncodePool encoders{2};  // Last: its threads call the view until they have ended.
-};
+using test::SharedViewTest;
 
 TEST_F(SharedViewTest, FiftyWatchersOfOneSizeCostOneDrawAndOneEncodeAFrame) {
     std::vector<ViewerId> viewers;
@@ -119,99 +29,6 @@ TEST_F(SharedViewTest, FiftyWatchersOfOneSizeCostOneDrawAndOneEncodeAFrame) {
     // The first draw was asked for when the first of them came, and overtaken.
     EXPECT_EQ(view->counts().drawsAsked, 6U);
     EXPECT_EQ(view->counts().encodes, 5U);
-}
-
-TEST_F(SharedViewTest, AnUpdateThatChangesNothingIsAnsweredByThePictureThatIsThere) {
-    const ViewerId viewer = join(), watcher = join();
-    look(viewer, 2, 5.0);
-    drawLast();
-    std::shared_ptr<const std::vector<std::byte>> exact;
-    for (const ViewerId one : {viewer, watcher}) {
-        const auto jpeg = frameOf(one);
-        ASSERT_TRUE(jpeg && jpeg->header.codec() == v1::CODEC_JPEG);
-        ack(one, jpeg->sequence);
-        const auto png = frameOf(one);
-        ASSERT_TRUE(png && png->header.final());
-        ack(one, png->sequence);
-        exact = png->payload;
-    }
-    const SharedView::Counts before = view->counts();
-    look(viewer, 3, 5.0);
-    v1::Update whole, nothing, sameSize;
-    *whole.mutable_scene() = worker::toMessage(newest().scene);
-    sameSize.mutable_viewport()->set_width(8);
-    sameSize.mutable_viewport()->set_height(6);
-    std::uint64_t seq = 3;
-    for (v1::Update* update : {static_cast<v1::Update*>(nullptr), &whole, &nothing, &sameSize}) {
-        if (update != nullptr) {
-            update->set_input_seq(++seq);
-            ASSERT_TRUE(view->update(viewer, *update, Clock::now()).has_value());
-        }
-        const auto answer = frameOf(viewer);
-        ASSERT_TRUE(answer.has_value()) << seq;
-        EXPECT_EQ(answer->header.input_seq(), seq);
-        EXPECT_TRUE(answer->header.final() && answer->header.lossless()) << seq;
-        EXPECT_FALSE(answer->header.redrawn()) << seq;
-        EXPECT_EQ(answer->payload, exact) << seq;
-        ack(viewer, answer->sequence);
-        EXPECT_FALSE(view->takeFrame(watcher, Clock::now()).has_value()) << seq;
-    }
-    EXPECT_EQ(view->counts().drawsAsked, before.drawsAsked);
-    EXPECT_EQ(view->counts().encodes, before.encodes);
-    look(viewer, 7, 6.0);
-    EXPECT_EQ(view->counts().drawsAsked, before.drawsAsked + 1);
-    drawLast();
-    const auto moved = frameOf(viewer);
-    ASSERT_TRUE(moved.has_value());
-    EXPECT_EQ(moved->header.input_seq(), 7U);
-    EXPECT_TRUE(moved->header.redrawn());
-}
-
-// Before the exact picture is there, the answer is the JPEG once more; the exact one still follows.
-TEST_F(SharedViewTest, AnUpdateThatChangesNothingDoesNotPutOffTheExactPicture) {
-    const ViewerId viewer = join();
-    look(viewer, 2, 5.0);
-    drawLast();
-    const auto jpeg = frameOf(viewer);
-    ASSERT_TRUE(jpeg.has_value());
-    ack(viewer, jpeg->sequence);
-    look(viewer, 3, 5.0);
-    const auto again = frameOf(viewer);
-    ASSERT_TRUE(again.has_value());
-    EXPECT_EQ(again->header.input_seq(), 3U);
-    ack(viewer, again->sequence);
-    const auto exact = again->header.final() ? again : frameOf(viewer);
-    ASSERT_TRUE(exact.has_value());
-    EXPECT_TRUE(exact->header.final());
-    EXPECT_EQ(exact->header.input_seq(), 3U);
-    EXPECT_EQ(view->counts().drawsAsked, 2U);  // The first as it joined.
-}
-
-TEST_F(SharedViewTest, WhatIsBeingDrawnAnswersAnUpdateThatChangesNothing) {
-    const ViewerId viewer = join();
-    look(viewer, 2, 5.0);
-    look(viewer, 3, 5.0);
-    drawLast();
-    const auto frame = frameOf(viewer);
-    ASSERT_TRUE(frame.has_value());
-    EXPECT_EQ(frame->header.input_seq(), 3U);
-}
-
-TEST_F(SharedViewTest, AnUpdateThatChangesNothingLeavesWhatMayBeRedone) {
-    const ViewerId viewer = join();
-    look(viewer, 2, 5.0);
-    v1::Undo undo;
-    view->undo(viewer, undo, Clock::now());
-    drawLast();
-    const auto scene = newest().scene;
-    ASSERT_TRUE(frameOf(viewer).has_value());
-    v1::Update whole;
-    whole.set_input_seq(4);
-    *whole.mutable_scene() = worker::toMessage(scene);
-    ASSERT_TRUE(view->update(viewer, whole, Clock::now()).has_value());
-    undo.set_redo(true);
-    view->undo(viewer, undo, Clock::now());
-    EXPECT_EQ(newest().scene.camera.eye.x, 5.0);
 }
 
 TEST_F(SharedViewTest, AWatcherWhoComesLateGetsThePictureThatIsThere) {
