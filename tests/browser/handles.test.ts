@@ -29,6 +29,20 @@ async function middleOf(of: Locator): Promise<{ x: number; y: number }> {
   return { x: box.x + box.width / 2, y: box.y + box.height / 2 };
 }
 
+/** By one finger, sideways. */
+async function drag(from: { x: number; y: number }, way: readonly number[]): Promise<void> {
+  const touch = await client.page.context().newCDPSession(client.page);
+  const send = (type: "touchStart" | "touchMove" | "touchEnd", dx?: number): Promise<unknown> =>
+    touch.send("Input.dispatchTouchEvent", {
+      type,
+      touchPoints: dx === undefined ? [] : [{ x: from.x + dx, y: from.y }],
+    });
+  await send("touchStart", 0);
+  for (const dx of way) await send("touchMove", dx);
+  await send("touchEnd");
+  await touch.detach();
+}
+
 const undo = () => client.page.getByRole("button", { name: "Undo" }).click();
 
 describe("a clip plane's handle", () => {
@@ -77,17 +91,7 @@ describe("a clip plane's handle", () => {
   it("moves by touch", async () => {
     const place = await value(plane());
     const from = await middleOf(plane());
-    const touch = await client.page.context().newCDPSession(client.page);
-    const send = (type: "touchStart" | "touchMove" | "touchEnd", dx: number): Promise<unknown> =>
-      touch.send("Input.dispatchTouchEvent", {
-        type,
-        touchPoints: type === "touchEnd" ? [] : [{ x: from.x + dx, y: from.y }],
-      });
-    await client.after(async () => {
-      await send("touchStart", 0);
-      for (const dx of [-10, -20, -30]) await send("touchMove", dx);
-      await send("touchEnd", 0);
-    });
+    await client.after(() => drag(from, [-10, -20, -30]));
     expect(await value(plane())).not.toBeCloseTo(place, 3);
     await client.after(undo);
   });
@@ -119,15 +123,25 @@ describe("a clip box", () => {
     expect(await violations(client)).toEqual([]);
   });
 
+  const middle = () => client.page.getByRole("button", { name: /^Clip box, all of it/ });
+  const places = async (): Promise<number[]> =>
+    Promise.all((await client.page.getByRole("slider", { name: /^Clip plane/ }).all()).map(value));
+
+  it("moves as a whole by touch, as one step", async () => {
+    const before = await places();
+    const from = await middleOf(middle());
+    await client.after(() => drag(from, [2, 4, 6]));
+    const moves = (await places()).map((x, i) => x - (before[i] ?? 0));
+    expect(Math.max(...moves.map(Math.abs))).toBeGreaterThan(0);
+    for (const i of [0, 2, 4]) expect(moves[i]).toBeCloseTo(moves[i + 1] ?? Number.NaN, 6);
+    await client.after(undo);
+    expect(await places()).toEqual(before);
+  });
+
   it("moves as a whole by its middle, by mouse and by keys, as one step each", async () => {
-    const middle = client.page.getByRole("button", { name: /^Clip box, all of it/ });
-    const places = async (): Promise<number[]> =>
-      Promise.all(
-        (await client.page.getByRole("slider", { name: /^Clip plane/ }).all()).map(value),
-      );
     const before = await places();
     const shown = await picture();
-    const from = await middleOf(middle);
+    const from = await middleOf(middle());
     await client.after(async () => {
       await client.page.mouse.move(from.x, from.y);
       await client.page.mouse.down();
@@ -142,10 +156,10 @@ describe("a clip box", () => {
     for (const i of [0, 2, 4]) expect(moves[i]).toBeCloseTo(moves[i + 1] ?? Number.NaN, 6);
     await client.after(undo);
     expect(await places()).toEqual(before);
-    await middle.focus();
+    await middle().focus();
     await client.after(() => client.page.keyboard.press("ArrowDown"));
     expect(await places()).not.toEqual(before);
-    expect(await middle.evaluate((e) => e === document.activeElement)).toBe(true);
+    expect(await middle().evaluate((e) => e === document.activeElement)).toBe(true);
     await client.after(undo);
     expect(await picture()).toBe(shown);
     expect(await violations(client)).toEqual([]);
