@@ -34,8 +34,9 @@ MapContent layerContent(const Layer& layer, const plan::LayerPlan& plan,
     }
     // Of equal levels the first layer's colour counts.
     std::ranges::stable_sort(content.levels, {}, &LevelColour::value);
-    const auto doubled = std::ranges::unique(content.levels, {}, &LevelColour::value);
-    content.levels.erase(doubled.begin(), doubled.end());
+    const auto sameValue = [](const auto& a, const auto& b) { return a.value == b.value; };
+    content.levels.erase(std::unique(content.levels.begin(), content.levels.end(), sameValue),
+                         content.levels.end());
     content.largestColours =
         layer.model == RayModel::kMipColour && plan.method == Integrator::kExact;
     content.preintegrated = plan.method == Integrator::kPreintegrated;

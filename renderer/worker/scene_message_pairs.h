@@ -16,6 +16,8 @@ struct Pair {
     Ours ours;
     Theirs theirs;
 };
+template <class Ours, class Theirs>
+Pair(Ours, Theirs) -> Pair<Ours, Theirs>;
 
 using scene::Integrator;
 using scene::MeshEvaluator;

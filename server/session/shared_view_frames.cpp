@@ -62,8 +62,9 @@ bool SharedView::mayDraw(const std::shared_ptr<Rendition>& rendition) const {
 void SharedView::draw(const std::shared_ptr<Rendition>& rendition, TimePoint now) {
     drawing_ = rendition;
     rendition->asked(++lastTag_, state_, now);
-    std::ranges::stable_partition(renditions_,
-                                  [&rendition](const auto& one) { return one != rendition; });
+    // The one that is drawn goes to the end, so that others have their turn.
+    const auto isOther = [&rendition](const auto& one) { return one != rendition; };
+    std::stable_partition(renditions_.begin(), renditions_.end(), isOther);
     ++counts_.drawsAsked;
     workers::RenderRequest request{.view = global_,
                                    .tag = lastTag_,
