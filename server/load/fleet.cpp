@@ -62,7 +62,7 @@ void Fleet::cast() {
     for (const Group& group : settings_.groups) {
         kinds_.insert(kinds_.end(), group.clients, group.kind);
     }
-    std::ranges::stable_partition(kinds_, moves);
+    std::stable_partition(kinds_.begin(), kinds_.end(), moves);
     const std::size_t wanted = settings_.views == 0 ? kinds_.size() : settings_.views;
     const std::size_t views = std::min(wanted, kinds_.size());
     for (std::size_t i = 0; i < views; ++i) views_.push_back(std::make_unique<SharedView>());
