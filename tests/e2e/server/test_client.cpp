@@ -56,11 +56,14 @@ void TestClient::take(const WsMessage& message) {
     ASSERT_TRUE(frame.has_value()) << frame.error().message;
     frames.push_back(
         {frame->prefix, frame->header, {frame->payload.begin(), frame->payload.end()}});
-    if (!acking_) return;
-    v1::ClientMessage ack;
-    ack.mutable_ack()->set_view(frame->prefix.view);
-    ack.mutable_ack()->set_sequence(frame->prefix.sequence);
-    send(ack);
+    if (acking_) ack(frame->prefix);
+}
+
+void TestClient::ack(const protocol::FramePrefix& frame) {
+    v1::ClientMessage message;
+    message.mutable_ack()->set_view(frame.view);
+    message.mutable_ack()->set_sequence(frame.sequence);
+    send(message);
 }
 
 template <class Item>

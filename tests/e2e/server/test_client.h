@@ -35,6 +35,7 @@ public:
     [[nodiscard]] WsClient& socket() { return *socket_; }
     void send(const v1::ClientMessage& message);
     void sendJson(const std::string& json) { socket_->sendText(json); }
+    void ack(const protocol::FramePrefix& frame);
     /// Whether frames are acked when they are read.
     void ackFrames(bool yes) { acking_ = yes; }
 
