@@ -165,12 +165,14 @@ bool SharedView::encodeFor(Viewer& viewer, TimePoint now) {
         wake(viewer);
     } else if (!std::exchange(encoding->begun, true)) {
         ++counts_.encodes;
-        outbox_.put([weak = weak_from_this(), encoding, &encoders = parts_.encoders] {
-            encoders.run([weak, encoding] {
-                Encoding done = encode(*encoding);
-                if (const auto self = weak.lock()) self->encoded(encoding, std::move(done));
+        // A copy, as other viewers may look at it meanwhile.
+        outbox_.put(
+            [weak = weak_from_this(), encoding, what = *encoding, &encoders = parts_.encoders] {
+                encoders.run([weak, encoding, what] {
+                    Encoding done = encode(what);
+                    if (const auto self = weak.lock()) self->encoded(encoding, std::move(done));
+                });
             });
-        });
     }
     return true;
 }
