@@ -235,7 +235,10 @@ Result<std::optional<accuracy::Measurement>> Loop::advance(const accuracy::Job& 
     if (job.aim == accuracy::Aim::kEstimates) {
         auto estimates = evidence_.advanceEstimates(job.scene, job.size);
         if (!estimates) return estimates.error();
-        return *estimates ? Part{{.estimates = **std::move(estimates)}} : Part{};
+        if (!*estimates) return Part{};
+        accuracy::Measurement measured;
+        measured.estimates = **std::move(estimates);
+        return Part{std::move(measured)};
     }
     const auto evidence = evidence_.of(job.scene, job.size);
     if (!evidence) return evidence.error();

@@ -25,6 +25,11 @@ std::vector<PsiRow> samplePsi(int count, std::uint64_t seed) {
         row.line = static_cast<int>(rows.size()) + 1;
         rows.push_back(row);
     };
+    // In this order by every compiler.
+    const auto addPair = [&](const auto& depth) {
+        const double near = depth();
+        add(near, depth());
+    };
     const auto addEdges = [&](double depth, double low, double high) {
         add(depth, low);
         add(low, depth);
@@ -33,9 +38,9 @@ std::vector<PsiRow> samplePsi(int count, std::uint64_t seed) {
         add(depth, depth);
     };
     for (int i = 0; i < count; ++i) {
-        add(thin(), thin());
-        add(middle(), middle());
-        add(wide(), wide());
+        addPair(thin);
+        addPair(middle);
+        addPair(wide);
         // 1e-6F and 1e-30F are below 1e-6 and 1e-30.
         if (i % 15 == 0) addEdges(thin(), std::nextafter(1e-6F, 1.0F), 1.0);
         if (i % 15 == 5) addEdges(middle(), 0.0, 10.0);
