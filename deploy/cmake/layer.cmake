@@ -33,7 +33,9 @@ function(volcast_test name folder)
     target_link_libraries(${name} PRIVATE ${TEST_LINK} GTest::gmock GTest::gtest_main)
     set(sanitizers "")
     if(VOLCAST_SANITIZE)
-        set(sanitizers ENVIRONMENT "UBSAN_OPTIONS=print_stacktrace=1:halt_on_error=1")
+        set(tsan "halt_on_error=1:suppressions=${CMAKE_SOURCE_DIR}/deploy/dev/tsan.supp")
+        set(sanitizers ENVIRONMENT
+            "UBSAN_OPTIONS=print_stacktrace=1:halt_on_error=1$<SEMICOLON>TSAN_OPTIONS=${tsan}")
     endif()
     gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST
                          PROPERTIES LABELS ${TEST_LABEL} TIMEOUT 300 ${sanitizers})
