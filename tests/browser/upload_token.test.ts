@@ -24,7 +24,7 @@ function token(role: "control" | "watch"): string {
   return printed.toString().trim();
 }
 const withToken = (access: string): Promise<Client> =>
-  place.open({}, `${place.url}/#access=${access}`);
+  place.open({}, `${place.url}#access=${access}`);
 const button = (of: Client) => of.page.getByRole("button", { name: "Upload data" });
 const row = (of: Client) => of.page.locator('.dataset[data-dataset="uploads/ball/ball.mhd"]');
 

@@ -19,8 +19,10 @@ protected:
         renderer_->addDataset("waves", waves());
         scene_.camera = support::perspective({40, 30, 50}, glm::dvec3{8.0});
         scene_.accuracy = {.kind = scene::Accuracy::Kind::kTimeBudget, .bound = 20.0};
-        scene_.layers.push_back(
-            {.id = "waves", .dataset = "waves", .map = support::ruler(-1.0F, 1.0F, 0.1F)});
+        scene::Layer& layer = scene_.layers.emplace_back();
+        layer.id = "waves";
+        layer.dataset = "waves";
+        layer.map = support::ruler(-1.0F, 1.0F, 0.1F);
     }
 
     static data::Volume waves() {
