@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include "renderer/base/memfd.h"
+#include "renderer/base/sandbox.h"
 #include "renderer/worker/channel.h"
 #include "server/workers/child_process.h"
 #include "tests/e2e/workers/service_fixture.h"
@@ -252,7 +253,9 @@ TEST(RenderServiceStart, NamesACacheFolderThatCannotBeMade) {
 TEST(Worker, ThatExitsIsReplaced) {
     const Folder folder;
     workers::RenderSettings settings = quickSettings();
-    settings.workerPath = folder.script("exec timeout -s KILL 4 " +
+    // Long enough to draw once; programs with sanitizers are slower.
+    const std::string lifeS = base::kLimitsAddressSpace ? "4" : "12";
+    settings.workerPath = folder.script("exec timeout -s KILL " + lifeS + " " +
                                         workers::besideThisProgram("volcast-worker") + " \"$@\"");
     const Service service = startService(settings);
     ASSERT_TRUE(service.service);
