@@ -17,15 +17,16 @@ packages=(
     # libraries
     libegl-dev libegl1 libegl-mesa0 libgl1-mesa-dri libgl-dev libepoxy-dev libglm-dev
     libopenimageio-dev libtet1.5-dev libboost1.81-dev libprotobuf-dev libturbojpeg0-dev
-    libdeflate-dev libcli11-dev libspdlog-dev libseccomp-dev glslang-dev libssl-dev
+    libdeflate-dev libcli11-dev libspdlog-dev libseccomp-dev libssl-dev
     libavcodec-dev libavutil-dev libwebp-dev libxxhash-dev prometheus-cpp-dev
+    glslang-dev glslang-tools  # The CMake package of the first looks for programs of the second.
     # read by volcast-import
     python3-vtk9 python3-meshio python3-h5py python3-numpy
     # the build, googletest and benchmark included: one configuration for users and tests
     libgtest-dev libgmock-dev libbenchmark-dev libpng-dev
 )
 if [ -n "${1:-}" ]; then
-    packages+=(chromium clang-format-14 glslang-tools python3-websockets)
+    packages+=(chromium clang-format-14 python3-websockets)
 fi
 if [ "${1:-}" = --dev ]; then
     packages+=(clang-14 libclang-rt-14-dev clang-tidy-14)
