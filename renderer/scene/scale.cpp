@@ -4,6 +4,8 @@
 #include <cmath>
 #include <string>
 
+#include "renderer/scene/validate_error.h"
+
 namespace volcast::scene {
 namespace {
 
@@ -16,10 +18,6 @@ double farOffset(const data::Range& range) {
     constexpr double kFar = 4.0;
     const double low = range.min, high = range.max;
     return std::max(std::abs(low), std::abs(high)) > kFar * (high - low) ? low : 0.0;
-}
-
-Error bad(const std::string& field, const std::string& why) {
-    return fail(ErrorCode::kInvalidArgument, field + ": " + why, field);
 }
 
 }  // namespace
@@ -77,19 +75,20 @@ std::vector<float> resolved(const Levels& levels) {
 
 Result<void> validate(const Scale& scale, const data::Range& range, const std::string& path) {
     if (scale.domain && !ordered(*scale.domain)) {
-        return bad(path + ".domain",
-                   std::to_string(scale.domain->min) + " to " + std::to_string(scale.domain->max) +
-                       " is not a range of finite numbers, the first below the last");
+        return invalid(path + ".domain",
+                       std::to_string(scale.domain->min) + " to " +
+                           std::to_string(scale.domain->max) +
+                           " is not a range of finite numbers, the first below the last");
     }
     const data::Range domain = scale.domain.value_or(range);
     if (scale.kind == Scale::Kind::kLog && !(domain.min > 0.0F)) {
-        return bad(path + ".domain",
-                   "a logarithmic scale needs values above 0, the domain begins at " +
-                       std::to_string(domain.min) + "; give it one above 0");
+        return invalid(path + ".domain",
+                       "a logarithmic scale needs values above 0, the domain begins at " +
+                           std::to_string(domain.min) + "; give it one above 0");
     }
     if (scale.kind == Scale::Kind::kPower &&
         !(scale.exponent > 0.0F && std::isfinite(scale.exponent))) {
-        return bad(path + ".exponent", std::to_string(scale.exponent) + " is not above 0");
+        return invalid(path + ".exponent", std::to_string(scale.exponent) + " is not above 0");
     }
     return {};
 }
@@ -108,7 +107,7 @@ Result<void> validate(const Levels& levels, const std::string& path) {
     const bool list = levels.spacing == Levels::Spacing::kList;
     const long count = list ? static_cast<long>(levels.values.size()) : levels.count;
     const std::string where = path + (list ? ".values" : ".count");
-    if (count < 1) return bad(where, "an isosurface needs at least one level");
+    if (count < 1) return invalid(where, "an isosurface needs at least one level");
     if (count > Levels::kMaxLevels) {
         return fail(ErrorCode::kLimitExceeded,
                     where + ": " + std::to_string(count) + " levels, at most " +
@@ -117,19 +116,19 @@ Result<void> validate(const Levels& levels, const std::string& path) {
     }
     if (list) {
         if (std::ranges::all_of(levels.values, [](float v) { return std::isfinite(v); })) return {};
-        return bad(where, "a level is not a finite number");
+        return invalid(where, "a level is not a finite number");
     }
-    if (!std::isfinite(levels.first)) return bad(path + ".first", "is not a finite number");
-    if (!std::isfinite(levels.last)) return bad(path + ".last", "is not a finite number");
+    if (!std::isfinite(levels.first)) return invalid(path + ".first", "is not a finite number");
+    if (!std::isfinite(levels.last)) return invalid(path + ".last", "is not a finite number");
     if (levels.spacing == Levels::Spacing::kLog && !(levels.first > 0.0F && levels.last > 0.0F)) {
         const bool first = !(levels.first > 0.0F);
-        return bad(path + (first ? ".first" : ".last"),
-                   std::to_string(first ? levels.first : levels.last) +
-                       " is not above 0, as logarithmic spacing needs");
+        return invalid(path + (first ? ".first" : ".last"),
+                       std::to_string(first ? levels.first : levels.last) +
+                           " is not above 0, as logarithmic spacing needs");
     }
     if (levels.spacing == Levels::Spacing::kPower &&
         !(levels.exponent > 0.0F && std::isfinite(levels.exponent))) {
-        return bad(path + ".exponent", std::to_string(levels.exponent) + " is not above 0");
+        return invalid(path + ".exponent", std::to_string(levels.exponent) + " is not above 0");
     }
     return {};
 }

@@ -138,9 +138,11 @@ Result<void> WorkerProcess::render(std::uint64_t number, const RenderRequest& re
     internal::v1::Render& render = *message.mutable_render();
     render.set_request(number);
     render.set_view(request.view);
-    scene::Scene scene = request.scene;
-    if (request.hurried) scene.accuracy = {.kind = scene::Accuracy::Kind::kFastest};
-    *render.mutable_scene() = worker::toMessage(scene);
+    *render.mutable_scene() = worker::toMessage(request.scene);
+    if (request.hurried) {
+        render.mutable_scene()->mutable_accuracy()->set_kind(v1::Accuracy::FASTEST);
+        render.mutable_scene()->mutable_accuracy()->clear_bound();
+    }
     render.set_width(static_cast<std::uint32_t>(request.size.x));
     render.set_height(static_cast<std::uint32_t>(request.size.y));
     render.set_slot(slot_);

@@ -87,4 +87,20 @@ inline Result<workers::ImportedDataset> importCube(
     return imported;
 }
 
+/// The demo datasets, each of them a cube.
+inline std::unique_ptr<Catalogue> cubes(ScriptedRender& render) {
+    CatalogueDesc desc;
+    desc.importer = importCube;
+    return *Catalogue::create(std::move(desc), render);
+}
+
+/// The first dataset, once it is loaded; empty where that fails.
+inline std::string loadedFirst(Catalogue& catalogue) {
+    const std::string id = catalogue.list().datasets(0).id();
+    if (!catalogue.require(id)) return {};
+    while (!catalogue.standing(id).loaded && !catalogue.standing(id).failed)
+        std::this_thread::yield();
+    return catalogue.standing(id).loaded ? id : std::string{};
+}
+
 }  // namespace volcast::session::test

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <thread>
-
 #include "tests/unit/session/scripted_render.h"
 #include "tests/unit/session/session_client.h"
 
@@ -11,12 +9,7 @@ namespace volcast::session::test {
 struct TestServer {
     explicit TestServer(const LinkKey& key, std::chrono::seconds keep = std::chrono::seconds{60},
                         std::unique_ptr<StateFolder> state = {}) {
-        CatalogueDesc desc;
-        desc.importer = importCube;
-        catalogue = *Catalogue::create(std::move(desc), render);
-        const std::string id = catalogue->list().datasets(0).id();
-        EXPECT_TRUE(catalogue->require(id).has_value());
-        while (!catalogue->standing(id).loaded) std::this_thread::yield();
+        EXPECT_NE(loadedFirst(*catalogue), "");
         views = std::make_unique<Views>(ViewsDesc{.parts = {.render = render,
                                                             .catalogue = *catalogue,
                                                             .router = router,
@@ -39,7 +32,7 @@ struct TestServer {
 
     ScriptedRender render;
     ViewRouter router;
-    std::unique_ptr<Catalogue> catalogue;
+    std::unique_ptr<Catalogue> catalogue = cubes(render);
     EncodePool encoders{1};
     std::unique_ptr<Views> views;
     std::unique_ptr<Shared> shared;

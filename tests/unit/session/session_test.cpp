@@ -12,16 +12,14 @@
 namespace volcast::session {
 namespace {
 
+using test::cubes;
 using test::drawn;
-using test::importCube;
 using test::ScriptedRender;
 
 class SessionTest : public testing::Test {
 protected:
     void SetUp() override {
-        CatalogueDesc desc;
-        desc.importer = importCube;
-        catalogue = *Catalogue::create(std::move(desc), render);
+        catalogue = cubes(render);
         events = router.events();
         const LinkKey key = *LinkKey::random();
         views = std::make_unique<Views>(ViewsDesc{.parts = {.render = render,

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <condition_variable>
-#include <thread>
 
 #include <gtest/gtest.h>
 
@@ -13,13 +12,10 @@ namespace volcast::session::test {
 class SharedViewTest : public testing::Test {
 protected:
     void SetUp() override {
-        CatalogueDesc desc;
-        desc.importer = importCube;
-        catalogue = *Catalogue::create(std::move(desc), render);
+        catalogue = cubes(render);
         events = router.events();
-        const std::string id = catalogue->list().datasets(0).id();
-        ASSERT_TRUE(catalogue->require(id).has_value());
-        while (!catalogue->standing(id).loaded) std::this_thread::yield();
+        const std::string id = loadedFirst(*catalogue);
+        ASSERT_NE(id, "");
         const LinkKey key = *LinkKey::random();
         views = std::make_unique<Views>(ViewsDesc{.parts = {.render = render,
                                                             .catalogue = *catalogue,

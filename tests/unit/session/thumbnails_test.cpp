@@ -10,16 +10,14 @@
 namespace volcast::session {
 namespace {
 
+using test::cubes;
 using test::drawn;
-using test::importCube;
 using test::ScriptedRender;
 
 class ThumbnailsTest : public testing::Test {
 protected:
     void SetUp() override {
-        CatalogueDesc desc;
-        desc.importer = importCube;
-        catalogue = *Catalogue::create(std::move(desc), render);
+        catalogue = cubes(render);
         events = router.events();
         thumbnails = std::make_unique<Thumbnails>(render, *catalogue, router, encoders);
         catalogue->subscribe([this](const v1::DatasetInfo& info) {
