@@ -58,7 +58,8 @@ vec3 psiWeights(float a, float b) {
         float mm = m * m;
         float x = 0.5 * m;
         // hidden = 1 - sqrt(z), so alpha = 2 hidden - hidden^2 = m - 2 excess - hidden^2: where m
-        // is small the others hardly count, and only this difference rounds.
+        // is small the others hardly count, and only this difference rounds. From m = 2 log 2 on,
+        // hidden is at least 1/2 and 1 - hidden does not round: 1 - (1 - hidden)^2 is closer then.
         float excess = x * x * (0.499999851 + x * (-0.166663662 + x * (0.0416474678 +
                        x * (-0.0082762083 + x * (0.00130112644 + x * -0.000129130916)))));
         float hidden = x - excess;
@@ -73,7 +74,8 @@ vec3 psiWeights(float a, float b) {
         float n5 = 3.01462978e-06 + mm * 3.42338708e-08 + e * 1.17733919e-07;
         float n = n0 + e * (n1 + e * (n2 + e * (n3 + e * (n4 + e * n5))));
         float odd = e * (1.0 / 6.0) + n;
-        alpha = m - (2.0 * excess + hidden * hidden);
+        alpha = m < 1.4 ? m - (2.0 * excess + hidden * hidden)
+                        : 1.0 - (1.0 - hidden) * (1.0 - hidden);
         alpha = m < 1.0e-37 ? 0.0 : alpha;
         back = 0.5 * alpha + (odd - hidden * odd);
     } else {
