@@ -82,6 +82,13 @@ describe("the slider from fastest to exact", () => {
     await client.choose("demo:volume");
     const volume = client.page.getByRole("radio", { name: /^Volume/ });
     if (!(await volume.isChecked())) await client.after(() => volume.check({ force: true }));
+    // So far apart that integrators differ, and the most accurate is not the fastest.
+    const samples = client.page.getByRole("combobox", { name: "Samples", exact: true });
+    await client.after(async () => void (await samples.selectOption("By their number")));
+    await client.after(async () => {
+      await client.page.getByRole("textbox", { name: "Samples over the depth" }).fill("6");
+      await client.page.keyboard.press("Enter");
+    });
     await slider().blur();
     await slider().focus();
     await source("estimated");
@@ -97,6 +104,17 @@ describe("the slider from fastest to exact", () => {
     expect(times.every((ms) => ms > 0)).toBe(true);
     console.info(`predicted ms of voxels, fastest first: ${times.join(", ")}`);
     await client.page.screenshot({ path: join(screenshotFolder(), "slider-voxels-760.png") });
+    // So dense that all are right, the fastest may well be the most accurate: the slider stays and says so.
+    await client.after(async () => void (await samples.selectOption("Half a voxel apart")));
+    await slider().blur();
+    await slider().focus();
+    await source("estimated");
+    if ((await slider().getAttribute("max")) === "0") {
+      expect(await client.page.locator(".accuracy-slider [role=status]").textContent()).toContain(
+        "both the fastest and the most accurate",
+      );
+    }
+    await client.page.screenshot({ path: join(screenshotFolder(), "slider-dense-760.png") });
     await client.choose("demo:mesh");
   });
 

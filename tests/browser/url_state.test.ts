@@ -129,7 +129,9 @@ describe("the address", () => {
     const reloaded = await picture(client);
     expect(reloaded).not.toBe(dragged);
     await client.page.waitForURL(/#view=/);
-    await client.after(() => untilAddressed(client, () => client.page.keyboard.press("ArrowRight")));
+    await client.after(() =>
+      untilAddressed(client, () => client.page.keyboard.press("ArrowRight")),
+    );
     expect(await picture(client)).toBe(dragged);
     await client.after(() => client.page.keyboard.press("ArrowLeft"));
     expect(await picture(client)).toBe(reloaded);

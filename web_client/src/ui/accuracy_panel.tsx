@@ -112,7 +112,8 @@ function Choices({ state }: Props) {
 export function AccuracyPanel({ state, port }: Props & { readonly port: AppPort }) {
   const layer = state.layer.value;
   if (!layer || layer.shader?.code) return null; // Code has one way.
-  const several = stopsOf(state).stops.length > 1;
+  const { source, stops } = stopsOf(state);
+  const several = source !== "order" || stops.length > 1;
   return (
     <section class="section" aria-labelledby="accuracy-heading">
       <h2 id="accuracy-heading">Accuracy</h2>

@@ -25,10 +25,11 @@ const kSources: Readonly<Record<Source, string>> = {
   order: "",
 };
 
-function noteOf(state: AppState, { source }: Stops): string {
+function noteOf(state: AppState, { source, stops }: Stops): string {
   const { estimated } = state;
   if (source !== "order" || !estimated.value || !isOfThisView(state, estimated.value)) {
-    return kSources[source];
+    const only = stops.length === 1 ? " One way is both the fastest and the most accurate." : "";
+    return kSources[source] + only;
   }
   if (estimated.value.running) return "Estimating…";
   return estimated.value.stopped && `No estimates: ${estimated.value.stopped}.`;
@@ -77,7 +78,12 @@ export function AccuracySlider({ state, port }: Props) {
         ))}
       </datalist>
       <p class="accuracy-said">
-        <output>{used === undefined ? "Drawn in a way beside these." : said}</output>
+        <output>{used === undefined && last > 0 ? "Drawn in a way beside these." : said}</output>
+        {used === undefined && last === 0 && (
+          <button type="button" class="text-button" onClick={() => drawBy(state, stop.row)}>
+            Draw so
+          </button>
+        )}
         {automatic ? (
           <span class="accuracy-auto">as the wish asks</span>
         ) : (
