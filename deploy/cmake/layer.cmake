@@ -33,9 +33,11 @@ function(volcast_test name folder)
     target_link_libraries(${name} PRIVATE ${TEST_LINK} GTest::gmock GTest::gtest_main)
     set(sanitizers "")
     if(VOLCAST_SANITIZE)
-        set(tsan "halt_on_error=1:suppressions=${CMAKE_SOURCE_DIR}/deploy/dev/tsan.supp")
-        set(sanitizers ENVIRONMENT
-            "UBSAN_OPTIONS=print_stacktrace=1:halt_on_error=1$<SEMICOLON>TSAN_OPTIONS=${tsan}")
+        # Two properties: a list in one of them does not outlive the discovery of tests.
+        set(sanitizers
+            ENVIRONMENT "UBSAN_OPTIONS=print_stacktrace=1:halt_on_error=1"
+            ENVIRONMENT_MODIFICATION
+            "TSAN_OPTIONS=set:halt_on_error=1:suppressions=${CMAKE_SOURCE_DIR}/deploy/dev/tsan.supp")
     endif()
     gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST
                          PROPERTIES LABELS ${TEST_LABEL} TIMEOUT 300 ${sanitizers})

@@ -44,7 +44,7 @@ SpawnDesc spawnDesc(const ImportRequest& request, const ImportSettings& settings
                           number(request.spacing.z),
                           "--max-memory=" + std::to_string(settings.maxMemoryBytes), "--",
                           request.path},
-            .environment = inheritedEnvironment({"ASAN_OPTIONS", "UBSAN_OPTIONS"}),
+            .environment = inheritedEnvironment({"ASAN_OPTIONS", "TSAN_OPTIONS", "UBSAN_OPTIONS"}),
             .channel = channel};
 }
 

@@ -64,7 +64,8 @@ inline Outcome runVolcast(const std::vector<std::string>& arguments,
     desc.arguments.insert(desc.arguments.end(), arguments.begin(), arguments.end());
     desc.environment = environment;
     desc.environment.push_back("TMPDIR=" + std::filesystem::temp_directory_path().string());
-    for (std::string& variable : workers::inheritedEnvironment({"ASAN_", "UBSAN_", "HOME="})) {
+    for (std::string& variable :
+         workers::inheritedEnvironment({"ASAN_", "TSAN_", "UBSAN_", "HOME="})) {
         desc.environment.push_back(std::move(variable));
     }
     auto child = workers::ChildProcess::spawn(desc);
