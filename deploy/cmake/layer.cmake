@@ -37,7 +37,7 @@ function(volcast_test name folder)
         set(sanitizers
             ENVIRONMENT "UBSAN_OPTIONS=print_stacktrace=1:halt_on_error=1"
             ENVIRONMENT_MODIFICATION
-            "TSAN_OPTIONS=set:halt_on_error=1:suppressions=${CMAKE_SOURCE_DIR}/deploy/dev/tsan.supp")
+            "TSAN_OPTIONS=set:halt_on_error=1:atexit_sleep_ms=0:suppressions=${CMAKE_SOURCE_DIR}/deploy/dev/tsan.supp")
     endif()
     gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST
                          PROPERTIES LABELS ${TEST_LABEL} TIMEOUT 300 ${sanitizers})
