@@ -32,7 +32,9 @@ function(volcast_test name folder)
     add_executable(${name} ${sources})
     target_link_libraries(${name} PRIVATE ${TEST_LINK} GTest::gmock GTest::gtest_main)
     set(sanitizers "")
+    set(seconds 300)
     if(VOLCAST_SANITIZE)
+        set(seconds 1200)
         # Two properties: a list in one of them does not outlive the discovery of tests.
         set(sanitizers
             ENVIRONMENT "UBSAN_OPTIONS=print_stacktrace=1:halt_on_error=1"
@@ -40,5 +42,5 @@ function(volcast_test name folder)
             "TSAN_OPTIONS=set:halt_on_error=1:atexit_sleep_ms=0:suppressions=${CMAKE_SOURCE_DIR}/deploy/dev/tsan.supp")
     endif()
     gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST
-                         PROPERTIES LABELS ${TEST_LABEL} TIMEOUT 300 ${sanitizers})
+                         PROPERTIES LABELS ${TEST_LABEL} TIMEOUT ${seconds} ${sanitizers})
 endfunction()
