@@ -102,7 +102,8 @@ Result<void> enterSandbox(const SandboxPolicy& policy) {
 
 #ifdef VOLCAST_SANITIZED
 /// LeakSanitizer asks at the end of a process; it looks for leaks with ptrace, which is refused.
-extern "C" int __lsan_is_turned_off() {  // NOLINT(bugprone-reserved-identifier)
+// NOLINTNEXTLINE(bugprone-reserved-identifier, readability-identifier-naming): its name.
+extern "C" int __lsan_is_turned_off() {
     return volcast::base::insideSandbox ? 1 : 0;
 }
 #endif

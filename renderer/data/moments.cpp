@@ -97,7 +97,7 @@ std::vector<Moments> momentsOf(const Dataset& dataset) {
         for (const Field& field : mesh->fields) all.push_back(ofField(field));
         return all;
     }
-    const Volume& volume = std::get<Volume>(dataset);
+    const auto& volume = std::get<Volume>(dataset);
     for (const Channel& channel : volume.channels) {
         all.push_back(ofChannel(channel, volume.type));
     }

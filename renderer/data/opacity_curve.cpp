@@ -30,7 +30,8 @@ double OpacityCurve::knot(int i) const {
 OpacityCurve::Place OpacityCurve::place(int span, double u) const {
     std::array<glm::dvec2, kMostDegree + 1> d{};
     for (int j = 0; j <= degree_; ++j) {
-        d[static_cast<std::size_t>(j)] = points_[static_cast<std::size_t>(span + j)];
+        const auto at = static_cast<std::size_t>(j);
+        d[at] = points_[static_cast<std::size_t>(span) + at];
     }
     glm::dvec2 derivative{0.0};
     for (int level = 1; level <= degree_; ++level) {

@@ -16,6 +16,8 @@ public:
     }
     Scissor(const Scissor&) = delete;
     Scissor& operator=(const Scissor&) = delete;
+    Scissor(Scissor&&) = delete;
+    Scissor& operator=(Scissor&&) = delete;
     ~Scissor() { glDisable(GL_SCISSOR_TEST); }
 };
 

@@ -30,7 +30,7 @@ Method methodOf(const LayerPlan& plan, const Matter& matter, const scene::Accura
     if (free && wish.kind == scene::Accuracy::Kind::kAuto) {
         return {.integrator = cheapest, .reason = "samples in the middle of steps cost least"};
     }
-    const Method chosen = chooseMethod(layer, rows, wish, false, evidence);
+    Method chosen = chooseMethod(layer, rows, wish, false, evidence);
     const bool lit = layer.model == RayModel::kVolume && layer.light.has_value();
     if (lit && chosen.integrator != best) {
         return {.integrator = cheapest, .reason = "light falls on samples, for a step each"};

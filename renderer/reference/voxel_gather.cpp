@@ -193,7 +193,7 @@ double opticalDepth(std::span<const VoxelPiece> pieces, const LinearMap& extinct
 }
 
 glm::dvec3 colourIntegral(std::span<const VoxelPiece> pieces, const LinearMap& colour) {
-    return glm::dvec3(lineIntegral(pieces, colour));
+    return {lineIntegral(pieces, colour)};
 }
 
 std::optional<Extremes> extremes(std::span<const VoxelPiece> pieces) {

@@ -28,7 +28,7 @@ ChannelTexels channelTexels(const std::vector<DrawnChannel>& channels) {
 Result<void> ChannelTable::set(gpu::Device& device, const std::vector<DrawnChannel>& channels) {
     if (buffer_.valid() && channels == channels_) return {};
     const ChannelTexels table = channelTexels(channels);
-    const Result<void> filled = refill(device, buffer_, table.texels, "maps of channels");
+    Result<void> filled = refill(device, buffer_, table.texels, "maps of channels");
     if (!filled) return filled;
     channels_ = channels;
     search_ = table.search;

@@ -101,17 +101,16 @@ Result<void> validateChannels(const Layer& layer, const data::DatasetSummary& su
     for (const data::FieldSummary& field : summary.fields) {
         names += (names.empty() ? "\"" : ", \"") + field.name + "\"";
     }
-    for (std::size_t i = 0; i < layer.channels.size(); ++i) {
-        const std::string& wanted = layer.channels[i].field;
-        if (std::ranges::find(summary.fields, wanted, &data::FieldSummary::name) !=
-            summary.fields.end()) {
-            continue;
-        }
-        const std::string field = pathOf(path, i) + ".field";
-        return fail(ErrorCode::kNotFound,
-                    field + ": there is no channel \"" + wanted + "\", there is " + names, field);
-    }
-    return {};
+    const auto missing = std::ranges::find_if(layer.channels, [&](const auto& channel) {
+        return std::ranges::find(summary.fields, channel.field, &data::FieldSummary::name) ==
+               summary.fields.end();
+    });
+    if (missing == layer.channels.end()) return {};
+    const auto at = static_cast<std::size_t>(missing - layer.channels.begin());
+    const std::string field = pathOf(path, at) + ".field";
+    return fail(ErrorCode::kNotFound,
+                field + ": there is no channel \"" + missing->field + "\", there is " + names,
+                field);
 }
 
 }  // namespace volcast::scene

@@ -142,6 +142,7 @@ Result<const volume::ChannelsGpu*> CachedDataset::channels(gpu::Device& device, 
     const auto& volume = std::get<data::Volume>(data_);
     std::vector<const data::Channel*> wanted;
     const std::vector<std::string> names = namesOf(layer);
+    wanted.reserve(names.size());
     for (const std::string& name : names) wanted.push_back(&named(volume.channels, name));
     const std::string key = joined(names);
     auto kept = channelSets_.find(key);
@@ -175,6 +176,7 @@ Result<const volume::RangeTable*> CachedDataset::rangeTable(gpu::Device& device,
     if (kept == rangeTables_.end()) {
         trim(rangeTables_, frame);
         std::vector<std::shared_ptr<const volume::ChannelRanges>> channels;
+        channels.reserve(names.size());
         for (const std::string& name : names) channels.push_back(ranges(name, layer));
         auto uploaded = volume::RangeTable::upload(device, channels);
         if (!uploaded) return uploaded.error();

@@ -14,7 +14,7 @@ constexpr std::size_t kHeaderBytes = kMapHeaderTexels * sizeof(glm::vec4);
 Result<void> MapTable::set(gpu::Device& device, const MapContent& content) {
     if (buffer_.valid() && content == content_) return {};
     const MapTexels table = mapTexels(content);
-    const Result<void> filled = refill(device, buffer_, table.texels, "transfer function");
+    Result<void> filled = refill(device, buffer_, table.texels, "transfer function");
     if (!filled) return filled;
     content_ = content;
     search_ = table.search;

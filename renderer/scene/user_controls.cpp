@@ -128,10 +128,12 @@ Result<void> validateShader(const Layer& layer, const data::DatasetSummary& summ
     if (!code) return code.error();
     const auto count = static_cast<int>(summary.fields.size());
     const std::string noun = summary.isMesh ? "field" : "channel";
-    for (const int channel : namedChannels(*code)) {
-        if (channel < count) continue;
+    const auto named = namedChannels(*code);
+    const auto missing =
+        std::ranges::find_if(named, [count](int channel) { return channel >= count; });
+    if (missing != named.end()) {
         return fail(ErrorCode::kNotFound,
-                    at + ": there is no " + noun + " " + std::to_string(channel) + "; \"" +
+                    at + ": there is no " + noun + " " + std::to_string(*missing) + "; \"" +
                         layer.dataset + "\" has " + std::to_string(count) + ", from 0",
                     at);
     }

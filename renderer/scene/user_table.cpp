@@ -13,7 +13,7 @@ Result<void> UserTable::set(gpu::Device& device, const std::vector<glm::vec4>& t
         texels.size() == texels_.size() &&
         std::memcmp(texels.data(), texels_.data(), texels.size() * sizeof(glm::vec4)) == 0;
     if (buffer_.valid() && same) return {};
-    const Result<void> filled = refill(device, buffer_, texels, "controls");
+    Result<void> filled = refill(device, buffer_, texels, "controls");
     if (!filled) return filled;
     texels_ = texels;
     return {};

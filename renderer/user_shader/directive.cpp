@@ -99,7 +99,7 @@ private:
         if (atEnd()) return;
         if (next() != '(') {
             complain(column(), std::string{kSyntax} + "; found \"" +
-                                   std::string{text_.substr(at_)} + "\" before any \"(\"");
+                                   std::string{text_.substr(at_)} + R"(" before any "(")");
             return;
         }
         const int open = column();

@@ -58,7 +58,7 @@ private:
 
     [[nodiscard]] Box boxOf(const Brick& brick) const {
         const glm::dvec3 last{volume_.size - 1};
-        const double side = static_cast<double>(kSide << brick.level);
+        const auto side = static_cast<double>(kSide << brick.level);
         return {.low = glm::min(side * glm::dvec3(brick.place), last),
                 .high = glm::min(side * (glm::dvec3(brick.place) + 1.0), last)};
     }

@@ -45,7 +45,7 @@ Result<BrickReport> BrickedLayer::prepare(gpu::Device& device, BrickPool& pool,
                        .limited = tree.limited};
     std::vector<glm::ivec4> texels = texelsOf(tree, *request.channel);
     const auto place = [&](int node, int slot) {
-        texels[static_cast<std::size_t>(node + kRootNode)].y = slot;
+        texels[kRootNode + static_cast<std::size_t>(node)].y = slot;
         ++report.resident;
     };
     const auto keyOf = [&](int node) {

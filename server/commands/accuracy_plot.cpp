@@ -92,7 +92,7 @@ std::string mark(double x, double y, const std::string& evaluator, const std::st
     const std::string rgb = colour == kColours.end() ? "#444444" : colour->rgb;
     return "<path transform=\"translate(" + number(x) + "," + number(y) + ")\" d=\"" +
            (shape == kShapes.end() ? kShapes.back().path : shape->path) + "\" stroke=\"" + rgb +
-           "\" stroke-width=\"1.6\" fill=\"" + (filled ? rgb : "#ffffff") + "\"/>\n";
+           R"(" stroke-width="1.6" fill=")" + (filled ? rgb : "#ffffff") + "\"/>\n";
 }
 
 /// A logarithmic axis from `low` to `high`, drawn from `begin` to `end`.
@@ -174,7 +174,7 @@ public:
         // Legends need two panels' width.
         const double width = std::max(2, columns) * kPanelWidth;
         const double height = kTitle + rows * kPanelHeight + kLegend;
-        out_ = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + number(width) + " " +
+        out_ = R"(<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 )" + number(width) + " " +
                number(height) + "\" width=\"" + number(width) + "\" height=\"" + number(height) +
                "\" font-family=\"sans-serif\" font-size=\"12\" fill=\"#111111\">\n"
                "<style>.frame{fill:none;stroke:#333333}.grid{fill:none;stroke:#e2e2e2}"
@@ -182,7 +182,8 @@ public:
                "<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n";
         title();
         for (int i = 0; i < count; ++i) {
-            panel(panels_[i], (i % columns) * kPanelWidth, kTitle + (i / columns) * kPanelHeight);
+            const int row = i / columns, column = i % columns;
+            panel(panels_[i], column * kPanelWidth, kTitle + row * kPanelHeight);
         }
         legend(kTitle + rows * kPanelHeight + 18.0);
         return std::move(out_) + "</svg>\n";
@@ -191,7 +192,7 @@ public:
 private:
     void title() {
         out_ += label(16.0, 22.0, "start", "What accuracy costs: " + run_.data,
-                      " font-size=\"16\" font-weight=\"bold\"");
+                      R"( font-size="16" font-weight="bold")");
         out_ += label(16.0, 42.0, "start",
                       std::to_string(run_.cells) + " " + run_.unit + ", " +
                           std::to_string(run_.size.x) + " x " + std::to_string(run_.size.y) +

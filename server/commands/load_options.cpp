@@ -97,6 +97,10 @@ void addClients(CLI::App& command, LoadOptions& options) {
     command.add_option("--height", settings.height, "Pixels")
         ->check(CLI::Range(1U, 8192U))
         ->capture_default_str();
+}
+
+/// What slows `slow` and `shaped` clients.
+void addLinks(CLI::App& command, load::LoadSettings& settings) {
     command
         .add_option_function<double>(
             "--slow-kb", [&settings](double kb) { settings.slowBytesPerSecond = kb * 1e3; },
@@ -154,6 +158,7 @@ void addLoadOptions(CLI::App& command, LoadOptions& options) {
     command.add_option("--trust", options.settings.trustFile,
                        "PEM file of the certificates that wss trusts; none: the system's");
     addClients(command, options);
+    addLinks(command, options.settings);
     addThresholds(command, options.thresholds);
     command.add_flag("--json", options.asJson, "One line of JSON instead of a table");
 }

@@ -53,7 +53,7 @@ std::optional<glm::vec3> fromHex(std::string_view text) {
     glm::vec3 colour{0.0F};
     for (int i = 0; i < 3; ++i) {
         int byte = 0;
-        for (const char c : text.substr(static_cast<std::size_t>(1 + 2 * i), 2)) {
+        for (const char c : text.substr(1 + std::size_t{2} * static_cast<std::size_t>(i), 2)) {
             const bool digit = c >= '0' && c <= '9';
             const char low = static_cast<char>(c | 0x20);
             if (!digit && (low < 'a' || low > 'f')) return std::nullopt;

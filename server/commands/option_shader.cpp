@@ -17,6 +17,10 @@ Error wrong(const std::string& option, const std::string& wanted) {
     return fail(ErrorCode::kInvalidArgument, option + ": the value is not " + wanted);
 }
 
+Error undeclared(const std::string& option, const std::string& file) {
+    return fail(ErrorCode::kNotFound, option + ": " + file + " declares no such control");
+}
+
 Result<double> numberFrom(const std::string& text, const std::string& option) {
     double value = 0.0;
     const char* end = text.data() + text.size();
@@ -117,7 +121,7 @@ Result<scene::UserShader> shaderFrom(const std::string& file,
         if (equals == std::string::npos) return wrong("--control " + given, "given: NAME=VALUE");
         const auto control = std::ranges::find(declared->controls, name, &Control::name);
         if (control == declared->controls.end()) {
-            return fail(ErrorCode::kNotFound, option + ": " + file + " declares no such control");
+            return undeclared(option, file);
         }
         auto state = stateFrom(*control, given.substr(equals + 1), option);
         if (!state) return std::move(state).error();

@@ -98,6 +98,17 @@ Result<std::unique_ptr<session::UploadFolder>> openUploads(const ServeSettings& 
     return session::UploadFolder::create(settings.dataFolder, settings.uploads);
 }
 
+session::CatalogueDesc catalogueOf(const ServeSettings& settings, workers::FaultSwitch& faults) {
+    session::CatalogueDesc desc;
+    desc.folder = settings.dataFolder;
+    desc.imports = settings.imports;
+    desc.importsAtOnce = settings.importsAtOnce;
+    if (!settings.allowFaults) return desc;
+    spdlog::warn("event=faults_allowed message=\"any client may let workers and imports fail\"");
+    desc.imports.fault = [&faults] { return faults.takeForImport(); };
+    return desc;
+}
+
 /// Builds the parts, joins them, serves.
 int serve(ServeSettings settings) {
     startLog(settings.logLevel);
@@ -107,20 +118,11 @@ int serve(ServeSettings settings) {
     session::ViewRouter router;
     auto render = workers::createIsolatingService(settings.render, router.events());
     if (!render) return complain(render.error());
-    session::CatalogueDesc desc;
-    desc.folder = settings.dataFolder;
-    desc.imports = settings.imports;
-    desc.importsAtOnce = settings.importsAtOnce;
     workers::FaultSwitch faults;
     faults.connect(**render);
-    if (settings.allowFaults) {
-        spdlog::warn(
-            "event=faults_allowed message=\"any client may let workers and imports fail\"");
-        desc.imports.fault = [&faults] { return faults.takeForImport(); };
-    }
     auto uploads = openUploads(settings);  // Before its folder is listed.
     if (!uploads) return complain(uploads.error());
-    auto catalogue = session::Catalogue::create(std::move(desc), **render);
+    auto catalogue = session::Catalogue::create(catalogueOf(settings, faults), **render);
     if (!catalogue) return complain(catalogue.error());
     (void)video::videoPatches();  // Encoders are tried now, not when the first client waits.
     logVideoEncoders();

@@ -52,7 +52,7 @@ void addTokenCommand(CLI::App& app, int& exitCode) {
             CLI::CheckedTransformer(std::map<std::string, v1::Role>{{"watch", v1::ROLE_WATCH},
                                                                     {"control", v1::ROLE_CONTROL}},
                                     CLI::ignore_case));
-    constexpr std::int64_t kMostHours = 366 * 24;
+    constexpr std::int64_t kMostHours = std::int64_t{366} * 24;
     command.add_option("--hours", settings->hours, "So long it is good")
         ->check(CLI::Range(std::int64_t{1}, kMostHours))
         ->capture_default_str();

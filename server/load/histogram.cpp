@@ -11,7 +11,8 @@ std::size_t Histogram::bucketOf(double us) {
     const double mantissa = std::frexp(std::max(us, 1.0), &exponent);  // [0.5, 1) * 2^exponent
     const int octave = std::min(exponent - 1, kOctaves - 1);
     const int within = std::min(static_cast<int>((mantissa * 2 - 1) * kPerOctave), kPerOctave - 1);
-    return static_cast<std::size_t>(octave * kPerOctave + within);
+    const int bucket = octave * kPerOctave + within;
+    return static_cast<std::size_t>(bucket);
 }
 
 void Histogram::add(double ms) {

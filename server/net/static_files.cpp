@@ -139,8 +139,7 @@ StaticFiles::Gzipped StaticFiles::gzipped(const std::string& name,
     if (gzipped_.size() >= kMostGzipped) gzipped_.clear();  // Versions that were built over.
     auto packed = video::gzip(content);
     const bool smaller = packed && packed->size() < content.size();
-    const Gzipped kept =
-        smaller ? std::make_shared<const std::string>(std::move(*packed)) : nullptr;
+    Gzipped kept = smaller ? std::make_shared<const std::string>(std::move(*packed)) : nullptr;
     gzipped_.emplace(name, kept);
     return kept;
 }

@@ -29,7 +29,7 @@ public:
     Patience& operator=(const Patience&) = delete;
     Patience(Patience&&) = delete;
     Patience& operator=(Patience&&) = delete;
-    ~Patience() {
+    ~Patience() {  // NOLINT(bugprone-exception-escape): a timer that cannot be cancelled is a bug
         state_->stream = nullptr;
         state_->timer.cancel();
     }

@@ -55,7 +55,8 @@ private:
     };
     struct Size {
         int x = 0, y = 0;
-        auto operator<=>(const Size&) const = default;
+        auto operator<=>(const Size&) const =
+            default;  // NOLINT(modernize-use-nullptr): clang-tidy 14 misreads it
     };
 
     /// The best first.

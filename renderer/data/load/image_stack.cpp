@@ -59,6 +59,8 @@ public:
     }
     PageReader(const PageReader&) = delete;
     PageReader& operator=(const PageReader&) = delete;
+    PageReader(PageReader&&) = delete;
+    PageReader& operator=(PageReader&&) = delete;
     ~PageReader() { OIIO::ImageCache::destroy(cache_); }
 
     [[nodiscard]] int rowsAtOnce() const { return cached() ? kRows : stack_.volume.size.y; }

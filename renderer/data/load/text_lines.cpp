@@ -68,7 +68,7 @@ Result<void> TextLines::need(std::size_t words, const std::string& what) {
 }
 
 Result<double> TextLines::number(std::size_t i) const {
-    const auto number = value(i);
+    auto number = value(i);
     if (number && std::isnan(*number)) return error(shown(words_[i]) + " is not finite");
     return number;
 }
