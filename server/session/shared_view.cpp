@@ -93,10 +93,11 @@ Result<void> SharedView::update(ViewerId id, const v1::Update& message, TimePoin
         history_.changed(before, !message.has_scene(), now);
         for (const auto& [other, one] : viewers_) one->input(now);
         stopMeasuring("the view changed");
-    } else if (steers ? !scene_.advance(seq) : seq <= viewer->resizedBy()) {
-        return boost::system::in_place_value;
-    } else if (answerAgain(*viewer, size, steers ? 0 : seq, now)) {
-        return boost::system::in_place_value;
+    } else {
+        const bool old = steers ? !scene_.advance(seq) : seq <= viewer->resizedBy();
+        if (old || answerAgain(*viewer, size, steers ? 0 : seq, now)) {
+            return boost::system::in_place_value;
+        }
     }
     state_.inputAt = now;
     state_.inputSeq = scene_.shownSeq();

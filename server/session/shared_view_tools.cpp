@@ -52,7 +52,7 @@ Result<void> SharedView::measure(ViewerId id, const v1::MeasureAccuracy& message
         if (measures_ == id && accuracy_.running()) stopMeasuring("stopped by the client");
         return boost::system::in_place_value;
     }
-    if (const auto may = mayMeasure(id); !may) return may;
+    if (auto may = mayMeasure(id); !may) return may;
     const Viewer& viewer = *find(id);
     const std::string name = "view " + std::to_string(viewer.number());
     stopMeasuring("measured anew");
@@ -82,7 +82,7 @@ Result<void> SharedView::measureDifference(ViewerId id, const v1::MeasureDiffere
         if (measures_ == id && difference_.running()) stopMeasuring("stopped by the client");
         return boost::system::in_place_value;
     }
-    if (const auto may = mayMeasure(id); !may) return may;
+    if (auto may = mayMeasure(id); !may) return may;
     for (std::size_t i = 0; i < state_.scene->layers.size(); ++i) {
         const scene::Layer& layer = state_.scene->layers[i];
         if (!layer.visible || !scene::runsUserCode(layer)) continue;

@@ -162,12 +162,16 @@ private:
         auto made = RenderService::create(settings_, eventsOf(view));
         std::unique_ptr<RenderService> unwanted;  // Ends without the lock.
         std::optional<RenderRequest> waiting;
+        std::optional<Error> failure;
         {
             const std::scoped_lock lock{mutex_};
             waiting = std::exchange(own->waiting, std::nullopt);
-            if (made && own->ended) unwanted = *std::move(made);
-            if (!made && !own->ended) own_.erase(view);
-            if (made && !own->ended) {
+            if (!made) {
+                failure = made.error();
+                if (!own->ended) own_.erase(view);
+            } else if (own->ended) {
+                unwanted = *std::move(made);
+            } else {
                 own->service = *std::move(made);
                 for (const auto& [id, packed] : datasets_) {
                     own->service->addDataset(id, copyOf(packed));
@@ -176,7 +180,7 @@ private:
                 return;
             }
         }
-        if (!made && waiting) events_.failed(view, waiting->tag, made.error());
+        if (failure && waiting) events_.failed(view, waiting->tag, *failure);
     }
 
     /// Those of the view's own service. What took it down twice goes into quarantine.
