@@ -23,8 +23,9 @@ glm::ivec3 layout(std::size_t count, int mostASide) {
     const auto most = static_cast<std::size_t>(mostASide);
     const std::size_t x =
         std::min(most, static_cast<std::size_t>(std::cbrt(static_cast<double>(count))));
+    const std::size_t slab = count / x;
     const std::size_t y =
-        std::min(most, static_cast<std::size_t>(std::sqrt(static_cast<double>(count / x))));
+        std::min(most, static_cast<std::size_t>(std::sqrt(static_cast<double>(slab))));
     const std::size_t z = std::min(most, count / (x * y));
     return {static_cast<int>(x), static_cast<int>(y), static_cast<int>(z)};
 }

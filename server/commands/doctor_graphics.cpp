@@ -117,7 +117,7 @@ Finding drawOne(const std::string& gpu) {
         request.view = 1;
         request.size = {128, 128};
         request.scene = scene::defaultScene("demo", data->summary);
-        auto frame = renderer->draw(std::move(request));
+        auto frame = renderer->draw(request);
         if (!frame) return std::move(frame).error();
         return frame->uploadMs + frame->drawMs;
     }();
