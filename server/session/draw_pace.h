@@ -55,8 +55,8 @@ private:
     };
     struct Size {
         int x = 0, y = 0;
-        auto operator<=>(const Size&) const =
-            default;  // NOLINT(modernize-use-nullptr): clang-tidy 14 misreads it
+        // NOLINTNEXTLINE(modernize-use-nullptr): clang-tidy 14 misreads it.
+        auto operator<=>(const Size&) const = default;
     };
 
     /// The best first.

@@ -11,7 +11,7 @@ import {
 } from "../net/gen/volcast/v1/session_pb";
 import { dragged } from "../view/camera";
 import { drawBy, measuringBegan, measuringReported } from "./accuracy";
-import { estimatedStops, measuredStops, stopsOf, usedStop } from "./accuracy_stops";
+import { estimatedStops, hasChoice, measuredStops, stopsOf, usedStop } from "./accuracy_stops";
 import { adoptScene } from "./actions";
 import { createAppState, type PictureInfo } from "./app_state";
 import { kIntegratorNames } from "./models";
@@ -54,10 +54,10 @@ describe("estimated stops", () => {
 });
 
 describe("the slider's stops", () => {
-  const open = () => {
+  const open = (model = RayModel.XRAY) => {
     const state = createAppState();
     state.datasets.value = [create(DatasetInfoSchema, { id: "d", kind: DatasetKind.MESH })];
-    const layers = [{ id: "a", dataset: "d", model: RayModel.XRAY }];
+    const layers = [{ id: "a", dataset: "d", model }];
     const camera = { eye: { y: -9 }, center: {}, up: { z: 1 }, fovyDegrees: 30 };
     adoptScene(state, create(SceneSchema, { camera, layers }));
     return state;
@@ -81,6 +81,22 @@ describe("the slider's stops", () => {
     expect(stopsOf(state)).toMatchObject({ source: "measured", stops: [{ ms: 3 }] });
     if (state.orbit.value) state.orbit.value = dragged(state.orbit.value, 9, 0, 0.01);
     expect(stopsOf(state).source).toBe("order");
+  });
+
+  it("are offered where a model has several ways, be one of them the best in all", () => {
+    const state = open();
+    expect(hasChoice(state)).toBe(true);
+    measuringBegan(state, "estimated");
+    measuringReported(state, done([row({ integrator: Integrator.EXACT, medianMs: 7 })], true));
+    expect(stopsOf(state).stops.length).toBe(1);
+    expect(hasChoice(state)).toBe(true);
+    const single = open(RayModel.SURFACE);
+    expect(stopsOf(single).stops.length).toBe(1);
+    expect(hasChoice(single)).toBe(false);
+    measuringBegan(single);
+    measuringReported(single, done([row({ medianMs: 3, onFront: true })]));
+    expect(stopsOf(single).source).toBe("measured");
+    expect(hasChoice(single)).toBe(false);
   });
 
   it("of voxels take as long as the picture says, each beside the way that drew it", () => {

@@ -96,6 +96,10 @@ export function stopsOf(state: AppState): Stops {
   return { source: "order", stops: plainStops(integratorsHere(state)) };
 }
 
+/** False where the first layer can be drawn in one way alone. */
+export const hasChoice = (state: AppState): boolean =>
+  integratorsHere(state).length > 1 || stopsOf(state).stops.length > 1;
+
 /** The stop by which the first layer is drawn; undefined where it is drawn in another way. */
 export function usedStop(state: AppState, stops: readonly Stop[]): number | undefined {
   const layer = state.layer.value;

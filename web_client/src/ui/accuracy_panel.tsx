@@ -5,7 +5,7 @@ import {
   Integrator,
   RayModel,
 } from "../net/gen/volcast/v1/scene_pb";
-import { stopsOf } from "../state/accuracy_stops";
+import { hasChoice } from "../state/accuracy_stops";
 import { changeLayer, changeScene, isMesh } from "../state/actions";
 import type { AppState } from "../state/app_state";
 import {
@@ -112,13 +112,11 @@ function Choices({ state }: Props) {
 export function AccuracyPanel({ state, port }: Props & { readonly port: AppPort }) {
   const layer = state.layer.value;
   if (!layer || layer.shader?.code) return null; // Code has one way.
-  const { source, stops } = stopsOf(state);
-  const several = source !== "order" || stops.length > 1;
   return (
     <section class="section" aria-labelledby="accuracy-heading">
       <h2 id="accuracy-heading">Accuracy</h2>
       <div class="options">
-        {several && <AccuracySlider state={state} port={port} />}
+        {hasChoice(state) && <AccuracySlider state={state} port={port} />}
         <Wish state={state} />
         {isMesh(state) && <Choices state={state} />}
       </div>
