@@ -15,7 +15,8 @@ enum class Links { kFollowInside, kRefuse };
 /// Errors: kNotFound, kInvalidArgument (not a folder), kIo (not readable), each with the path.
 Result<base::FileDescriptor> openFolder(const std::string& path);
 
-/// Opens `path`, relative to `folder`, for reading; the kernel refuses every way out of it.
+/// Opens `path`, relative to `folder`, for reading, a name at a time from the folder that
+/// was reached: no link, no ".." and nothing that is moved meanwhile leads out of it.
 ///
 /// Errors: kNotFound (missing, or leads out), kIo (not readable).
 Result<base::FileDescriptor> openBeneath(const base::FileDescriptor& folder,

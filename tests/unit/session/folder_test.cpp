@@ -1,5 +1,6 @@
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <unistd.h>
 
 #include <gmock/gmock.h>
@@ -89,6 +90,36 @@ TEST_F(Folder, NothingOutsideCanBeOpened) {
         const auto file = openBeneath(*root, path, Links::kRefuse);
         ASSERT_FALSE(file.has_value()) << path;
         EXPECT_EQ(file.error().code, ErrorCode::kNotFound) << path;
+    }
+}
+
+TEST_F(Folder, LinksAreFollowedAsFarAsTheyStayInside) {
+    std::ofstream{base / "secret"} << "x";
+    write("file");
+    write("deep/inner/file");
+    fs::create_symlink("deep/./inner//../../file", data / "round");
+    fs::create_directory_symlink("inner", data / "deep" / "folder");
+    fs::create_symlink("folder/../../round", data / "deep" / "chain");
+    fs::create_symlink("loop", data / "loop");
+    fs::create_symlink("deep/../../secret", data / "out");
+    fs::create_symlink(base / "secret", data / "absolute");
+    fs::create_directory_symlink("..", data / "up");
+    const auto root = openFolder(data);
+    ASSERT_TRUE(root.has_value());
+    const auto open = [&](const char* path, Links links) {
+        const auto file = openBeneath(*root, path, links);
+        return file ? std::optional<ErrorCode>{} : file.error().code;
+    };
+    for (const char* path : {"round", "deep/folder/file", "deep/chain", "deep//folder/./file",
+                             "deep/inner/../../file", "deep/", "."}) {
+        EXPECT_EQ(open(path, Links::kFollowInside), std::nullopt) << path;
+    }
+    for (const char* path : {"loop", "out", "absolute", "up/secret", "up", "file/", "file/.",
+                             "deep/folder/../../../secret", "loop/file"}) {
+        EXPECT_EQ(open(path, Links::kFollowInside), ErrorCode::kNotFound) << path;
+    }
+    for (const char* path : {"round", "deep/folder/file", "deep/folder/", "loop"}) {
+        EXPECT_EQ(open(path, Links::kRefuse), ErrorCode::kNotFound) << path;
     }
 }
 
