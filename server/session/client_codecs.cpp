@@ -21,6 +21,11 @@ bool ClientCodecs::has(v1::Codec codec) const noexcept {
     }
 }
 
+void ClientCodecs::giveUp(v1::Codec video) noexcept {
+    if (video == v1::CODEC_VP9) vp9 = false;
+    if (video == v1::CODEC_H264) h264 = false;
+}
+
 v1::Codec ClientCodecs::video() const noexcept {
     if (vp9) return v1::CODEC_VP9;
     return h264 ? v1::CODEC_H264 : v1::CODEC_UNSPECIFIED;

@@ -25,6 +25,8 @@ struct ClientCodecs {
     bool h264 = false;
 
     [[nodiscard]] bool has(v1::Codec codec) const noexcept;
+    /// It gets no video of this codec from now on.
+    void giveUp(v1::Codec video) noexcept;
     /// VP9 before H.264, whose colours have half the resolution; CODEC_UNSPECIFIED: none.
     [[nodiscard]] v1::Codec video() const noexcept;
     /// For exact pictures: PNG, which is encoded and decoded faster; WebP, which is smaller, where

@@ -105,14 +105,24 @@ std::shared_ptr<Encoding> Rendition::videoEncoding(const Format& format, InVideo
                                                                            .keyframe = keyframe}));
     };
     const bool goesOn = viewer.group && viewer.group->format == format;
-    for (const auto& one : encodings_) {
-        if (!one->group || one->format != format) continue;
-        const bool inStep = goesOn && one->group == viewer.group && one->after == viewer.last;
-        if (!inStep && !one->keyframe) continue;
-        viewer = {.group = one->group, .last = picture_->number};
+    const auto found = [&](auto suits) {
+        return std::ranges::find_if(encodings_, [&](const auto& one) {
+            return one->group && one->format == format && !one->error && suits(*one);
+        });
+    };
+    const auto join = [&](const std::shared_ptr<Encoding>& one) {
+        viewer = {.group = one->group, .last = picture_->number, .alone = false};
         return one;
+    };
+    if (goesOn) {
+        const auto next = found([&](const Encoding& one) {
+            return one.group == viewer.group && one.after == viewer.last;
+        });
+        if (next != encodings_.end()) return join(*next);
+        if (viewer.group->last == viewer.last) return begin(viewer.group, false);
     }
-    if (goesOn && viewer.group->last == viewer.last) return begin(viewer.group, false);
+    const auto keyframe = found([](const Encoding& one) { return one.keyframe; });
+    if (keyframe != encodings_.end()) return join(*keyframe);
     viewer.alone = viewer.alone || goesOn;
     std::erase_if(groups_, [](const auto& group) { return group.expired(); });
     if (!viewer.alone) {

@@ -89,8 +89,11 @@ Result<void> SharedView::update(ViewerId id, const v1::Update& message, TimePoin
         if (change == SceneChange::kSame && answerAgain(*viewer, size, 0, now)) {
             return boost::system::in_place_value;
         }
-        if (change == SceneChange::kSame) change = SceneChange::kDraw;
-        history_.changed(before, !message.has_scene(), now);
+        if (change == SceneChange::kSame) {
+            change = SceneChange::kDraw;
+        } else {
+            history_.changed(before, !message.has_scene(), now);
+        }
         for (const auto& [other, one] : viewers_) one->input(now);
         stopMeasuring("the view changed");
     } else {
@@ -107,6 +110,7 @@ Result<void> SharedView::update(ViewerId id, const v1::Update& message, TimePoin
     people_.at(id).size = size;
     place(*viewer);
     viewer->rendition->want();
+    if (change == SceneChange::kNone) changed();  // Its size is saved, too.
     apply(change, now, id, !message.has_scene());
     advance(*viewer, now);
     return boost::system::in_place_value;
@@ -146,7 +150,15 @@ void SharedView::undo(ViewerId id, const v1::Undo& message, TimePoint now) {
                                             about));
     }
     const auto change = scene_.put(*target, seq);
-    if (!change) return tell(*find(id), errorMessage(change.error(), about));
+    if (!change) {
+        // The step is taken back, so that it may be asked for again.
+        if (message.redo()) {
+            history_.undo(target);
+        } else {
+            history_.redo(target);
+        }
+        return tell(*find(id), errorMessage(change.error(), about));
+    }
     for (const auto& [other, one] : viewers_) one->input(now);
     stopMeasuring("the view changed");
     state_.inputAt = now;
@@ -195,6 +207,7 @@ void SharedView::apply(SceneChange change, TimePoint now, ViewerId author, bool 
         std::exchange(state_.scene, std::make_shared<const scene::Scene>(*scene_.scene()));
     state_.inputSeq = scene_.shownSeq();
     state_.dataVersion = scene_.dataVersion();
+    author_ = author;
     if (before && *before != *state_.scene) tellScene(author, cameraOnly);
     for (const auto& [id, viewer] : viewers_) {
         if (!viewer->opened) tellOpened(id);

@@ -165,7 +165,11 @@ private:
     void advance(TimePoint now);
     void advance(Viewer& viewer, TimePoint now);
     bool encodeFor(Viewer& viewer, TimePoint now);
-    [[nodiscard]] bool mayDraw(const std::shared_ptr<Rendition>& rendition) const;
+    /// What the viewer waits for could not be encoded; true where it takes another format.
+    bool encodingFailed(Viewer& viewer, const Error& error);
+    /// It has something to draw, and a viewer of it could soon be sent that.
+    [[nodiscard]] bool isWanted(const std::shared_ptr<Rendition>& rendition, TimePoint now) const;
+    [[nodiscard]] bool mayDraw(const std::shared_ptr<Rendition>& rendition, TimePoint now) const;
     void draw(const std::shared_ptr<Rendition>& rendition, TimePoint now);
     void settle(std::uint64_t tag);
     void pacedBy(const workers::RenderedFrame& frame, const RenditionKey& key);
@@ -196,6 +200,7 @@ private:
     bool ended_ = false;
     ViewScene scene_;
     DrawState state_;                    ///< Of scene_; its scene is null before the first.
+    ViewerId author_ = 0;                ///< Whose change state_.scene is; 0: nobody's.
     std::optional<SavedView> restored_;  ///< Until somebody comes.
     SceneHistory history_;
     ViewPeople people_;

@@ -2,6 +2,9 @@
 #include <algorithm>
 #include <utility>
 
+#include <spdlog/spdlog.h>
+
+#include "renderer/base/printable.h"
 #include "server/session/explain.h"
 #include "server/session/shared_view.h"
 #include "server/session/wire.h"
@@ -37,11 +40,7 @@ void SharedView::dropUnused() {
 
 void SharedView::advance(TimePoint now) {
     for (const auto& rendition : renditions_) {
-        if (!mayDraw(rendition)) continue;
-        const bool wanted = std::ranges::any_of(viewers_, [&](const auto& one) {
-            return one.second->rendition == rendition && one.second->mayDraw(now);
-        });
-        if (!wanted) continue;
+        if (!mayDraw(rendition, now)) continue;
         draw(std::shared_ptr{rendition}, now);
         break;
     }
@@ -52,11 +51,23 @@ void SharedView::advance(Viewer& viewer, TimePoint now) {
     viewer.rest(now);
     place(viewer);
     encodeFor(viewer, now);
-    if (mayDraw(viewer.rendition) && viewer.mayDraw(now)) draw(viewer.rendition, now);
+    if (mayDraw(viewer.rendition, now)) draw(viewer.rendition, now);
 }
 
-bool SharedView::mayDraw(const std::shared_ptr<Rendition>& rendition) const {
-    return !ended_ && state_.scene && rendition->wants() && (!drawing_ || drawing_ == rendition);
+bool SharedView::isWanted(const std::shared_ptr<Rendition>& rendition, TimePoint now) const {
+    return rendition->wants() && std::ranges::any_of(viewers_, [&](const auto& one) {
+               return one.second->rendition == rendition && one.second->mayDraw(now);
+           });
+}
+
+bool SharedView::mayDraw(const std::shared_ptr<Rendition>& rendition, TimePoint now) const {
+    if (ended_ || !state_.scene || !isWanted(rendition, now)) return false;
+    if (!drawing_) return true;
+    // A newer state takes the place of the one that waits there, unless that would keep another
+    // rendition from its turn for as long as inputs come.
+    return drawing_ == rendition && std::ranges::none_of(renditions_, [&](const auto& other) {
+               return other != rendition && isWanted(other, now);
+           });
 }
 
 void SharedView::draw(const std::shared_ptr<Rendition>& rendition, TimePoint now) {
@@ -136,8 +147,8 @@ void SharedView::failed(std::uint64_t tag, const Error& error) {
                         " is refused, the last one that was drawn stays";
     }
     for (const auto& [id, viewer] : viewers_) {
-        if (viewer->rendition != refused) continue;
         if (!reverted) {
+            if (viewer->rendition != refused) continue;
             refuse(*viewer, told, wireCode(error.code));
         } else {
             tell(*viewer,
@@ -146,7 +157,7 @@ void SharedView::failed(std::uint64_t tag, const Error& error) {
         }
     }
     if (!reverted) return advance(now);
-    apply(SceneChange::kDraw, now, people_.steering());
+    apply(SceneChange::kDraw, now, find(author_) == nullptr ? 0 : author_);
 }
 
 void SharedView::recovering() {
@@ -161,7 +172,9 @@ bool SharedView::encodeFor(Viewer& viewer, TimePoint now) {
     if (ended_) return false;
     const auto encoding = viewer.takeEncode(now);
     if (!encoding) return false;
-    if (encoding->done) {
+    if (encoding->done && encoding->error) {
+        if (encodingFailed(viewer, *encoding->error)) return encodeFor(viewer, now);
+    } else if (encoding->done) {
         wake(viewer);
     } else if (!std::exchange(encoding->begun, true)) {
         ++counts_.encodes;
@@ -184,11 +197,20 @@ void SharedView::encoded(const std::shared_ptr<Encoding>& encoding, Encoding don
     for (const auto& [id, viewer] : viewers_) {
         if (!viewer->waitsFor(*encoding)) continue;
         wake(*viewer);
-        if (!viewer->encoded()) {
-            refuse(*viewer, *encoding->error, v1::ERROR_CODE_RENDER_FAILED);
-            advance(*viewer, now);
-        }
+        if (!encoding->error) continue;
+        encodingFailed(*viewer, *encoding->error);
+        advance(*viewer, now);
     }
+}
+
+bool SharedView::encodingFailed(Viewer& viewer, const Error& error) {
+    if (viewer.encoded()) {
+        spdlog::warn(R"(event=video_failed view={} number={} message="{}")", id_, viewer.number(),
+                     base::printable(error.message, 1000));
+        return true;
+    }
+    refuse(viewer, error, v1::ERROR_CODE_RENDER_FAILED);
+    return false;
 }
 
 std::optional<ReadyFrame> SharedView::takeFrame(ViewerId id, TimePoint now) {

@@ -9,9 +9,9 @@ Result<video::VideoPicture> VideoGroup::encode(const video::ImageView& image, st
                                                bool keyframe) {
     const std::lock_guard lock{mutex_};
     if (number <= encoded_) {
-        return fail(ErrorCode::kInvalidArgument, "picture " + std::to_string(number) +
-                                                     " of a video comes after picture " +
-                                                     std::to_string(encoded_));
+        return fail(ErrorCode::kTimeout, "picture " + std::to_string(number) +
+                                             " of a video comes after picture " +
+                                             std::to_string(encoded_));
     }
     if (!stream_) {
         auto stream = video::VideoStream::create(

@@ -17,7 +17,7 @@ struct VideoGroup {
     std::uint64_t last = 0;  ///< Number of the picture that was given to encode() last.
 
     /// Picture number `number`; blocks. Any thread, one at a time goes on. Errors: as VideoStream,
-    /// and kInvalidArgument where a later picture was encoded already: nobody can use this one.
+    /// and kTimeout where a later picture was encoded already: nobody can use this one.
     Result<video::VideoPicture> encode(const video::ImageView& image, std::uint64_t number,
                                        bool keyframe);
 

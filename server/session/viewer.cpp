@@ -147,9 +147,16 @@ std::shared_ptr<Encoding> Viewer::takeEncode(TimePoint now) {
 
 bool Viewer::encoded() {
     if (!encoding_->error) return true;
-    if (encoding_->group) video_ = {};
-    encoding_.reset();
-    return false;
+    const std::shared_ptr<Encoding> failed = std::exchange(encoding_, nullptr);
+    if (!failed->group) return false;
+    video_ = {};
+    taken_ = failed->picture->number - 1;
+    if (failed->error->code == ErrorCode::kTimeout) return true;  // It came too late.
+    ClientCodecs others = desc_.codecs;
+    others.giveUp(failed->format.codec);
+    setCodecs(others);
+    if (pinnedCodec_ == failed->format.codec) setPins(pins_, v1::CODEC_UNSPECIFIED);
+    return true;
 }
 
 v1::Pace Viewer::paceOf(const Encoding& encoding, TimePoint now) const {

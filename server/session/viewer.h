@@ -91,7 +91,8 @@ public:
     [[nodiscard]] bool waitsFor(const Encoding& encoding) const {
         return encoding_.get() == &encoding;
     }
-    /// What it waits for is done; false where that failed.
+    /// What it waits for is done; false where that failed and nothing else can be tried. Where a
+    /// video failed, takeEncode() gives the same picture in another format.
     bool encoded();
     /// The frame to send now, if any; it counts as under way from then on.
     std::optional<ReadyFrame> takeFrame(TimePoint now);

@@ -116,12 +116,14 @@ VideoStream::VideoStream(std::size_t row) : row_{row} {}
 
 VideoStream::~VideoStream() = default;
 
-Result<std::unique_ptr<VideoStream>> VideoStream::create(VideoCodec codec) {
+Result<std::unique_ptr<VideoStream>> VideoStream::create(VideoCodec codec, std::string_view first) {
     const std::vector<EncoderFinding>& findings = videoEncoders();
     std::string tried;
     for (std::size_t row = 0; row < findings.size(); ++row) {
         if (findings[row].codec != codec) continue;
-        if (findings[row].used) return std::unique_ptr<VideoStream>{new VideoStream{row}};
+        if (first.empty() ? findings[row].used : findings[row].name == first) {
+            return std::unique_ptr<VideoStream>{new VideoStream{row}};
+        }
         tried += (tried.empty() ? "" : "; ") + findings[row].detail;
     }
     return fail(ErrorCode::kUnsupported, tried);
@@ -133,6 +135,23 @@ Result<VideoPicture> VideoStream::encode(const ImageView& image, int quality, bo
         return fail(ErrorCode::kInvalidArgument,
                     "video quality " + std::to_string(quality) + " is outside [1, 100]");
     }
+    while (true) {
+        auto picture = encodeAsItIs(image, quality, keyframe);
+        if (picture || !fallBack()) return picture;
+    }
+}
+
+bool VideoStream::fallBack() {
+    const std::vector<EncoderFinding>& findings = videoEncoders();
+    for (std::size_t row = row_ + 1; row < findings.size(); ++row) {
+        if (findings[row].codec != findings[row_].codec || !findings[row].works) continue;
+        row_ = row;
+        return true;
+    }
+    return false;
+}
+
+Result<VideoPicture> VideoStream::encodeAsItIs(const ImageView& image, int quality, bool keyframe) {
     const EncoderRow& row = kEncoderRows[row_];
     if (!open_ || open_->size != image.size || open_->quality != quality) {
         open_.reset();

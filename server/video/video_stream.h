@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "server/video/encoder.h"
@@ -35,8 +36,12 @@ struct EncoderFinding {
 /// picture its last row or column is there twice. Not thread-safe, but of no thread in particular.
 class VideoStream {
 public:
+    /// `first`: the encoder to begin with, by its name in kEncoderRows; empty: the one that is used
+    /// here.
+    ///
     /// Errors: kUnsupported (no encoder of `codec` works here; names those that were tried).
-    static Result<std::unique_ptr<VideoStream>> create(VideoCodec codec);
+    static Result<std::unique_ptr<VideoStream>> create(VideoCodec codec,
+                                                       std::string_view first = {});
     VideoStream(const VideoStream&) = delete;
     VideoStream& operator=(const VideoStream&) = delete;
     VideoStream(VideoStream&&) = delete;
@@ -45,10 +50,11 @@ public:
 
     /// Alpha is ignored. `quality` in [1, 100], about that of a JPEG. A keyframe is made where
     /// `keyframe` asks for it, of the first picture, and where size or quality differ from those of
-    /// the picture before.
+    /// the picture before. An encoder that fails is left for the next one that works here: one of
+    /// hardware may refuse a size, or one stream more than it has room for.
     ///
-    /// Errors: kInvalidArgument (as encodeJpeg), kIo (the encoder's words; the next picture is a
-    /// keyframe).
+    /// Errors: kInvalidArgument (as encodeJpeg), kIo (the last encoder's words; the next picture is
+    /// a keyframe).
     Result<VideoPicture> encode(const ImageView& image, int quality, bool keyframe = false);
 
     /// Name of the encoder in libavcodec.
@@ -58,6 +64,9 @@ private:
     struct Encoder;
     friend std::vector<EncoderFinding> findVideoEncoders();
     explicit VideoStream(std::size_t row);
+    Result<VideoPicture> encodeAsItIs(const ImageView& image, int quality, bool keyframe);
+    /// Takes the next encoder of the codec; false where there is none.
+    bool fallBack();
     std::size_t row_;  ///< Of the table of encoders.
     std::unique_ptr<Encoder> open_;
 };

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <condition_variable>
 
 #include <gtest/gtest.h>
@@ -17,11 +18,13 @@ protected:
         const std::string id = loadedFirst(*catalogue);
         ASSERT_NE(id, "");
         const LinkKey key = *LinkKey::random();
-        views = std::make_unique<Views>(ViewsDesc{.parts = {.render = render,
-                                                            .catalogue = *catalogue,
-                                                            .router = router,
-                                                            .encoders = encoders},
-                                                  .key = key});
+        views = std::make_unique<Views>(
+            ViewsDesc{.parts = {.render = render,
+                                .catalogue = *catalogue,
+                                .router = router,
+                                .encoders = encoders,
+                                .changed = [this](const auto&) { ++saves; }},
+                      .key = key});
         v1::OpenView open;
         open.set_dataset(id);
         open.set_input_seq(1);
@@ -85,6 +88,7 @@ protected:
     std::mutex mutex;
     std::condition_variable woken;
     int wakes = 0;
+    std::atomic<int> saves = 0;  ///< How often there was something new to save.
     std::uint32_t people = 0;
     std::unique_ptr<Views> views;
     std::shared_ptr<SharedView> view;

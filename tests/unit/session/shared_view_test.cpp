@@ -1,5 +1,6 @@
 // Several viewers of one view: what is drawn, what is encoded, who is told what.
 #include <atomic>
+#include <map>
 
 #include "renderer/worker/scene_message.h"
 #include "tests/unit/session/shared_view_fixture.h"
@@ -58,6 +59,58 @@ TEST_F(SharedViewTest, OtherSizesAreDrawnForThemselvesOneAtATime) {
     drawLast();
     EXPECT_EQ(frameOf(small)->header.width(), 8U);
     EXPECT_EQ(frameOf(large)->header.width(), 16U);
+}
+
+// Inputs that come faster than pictures: whenever one is drawn, a newer one waits already.
+TEST_F(SharedViewTest, ADragThatIsDrawnSlowlyLeavesOtherSizesTheirTurns) {
+    const ViewerId small = join({8, 6}), large = join({16, 12});
+    std::map<int, int> drawnOf;
+    workers::RenderRequest inFlight = newest();
+    for (std::uint64_t seq = 2; seq < 20; ++seq) {
+        look(small, seq);
+        events.rendered(drawn(inFlight));
+        ++drawnOf[inFlight.size.x];
+        const ViewerId shown = inFlight.size.x == 8 ? small : large;
+        const auto frame = frameOf(shown);
+        ASSERT_TRUE(frame.has_value());
+        ack(shown, frame->sequence);
+        inFlight = newest();
+    }
+    EXPECT_GE(drawnOf[8], 5);
+    EXPECT_GE(drawnOf[16], 5);
+}
+
+TEST_F(SharedViewTest, ARefusedSceneIsToldToWhoSentItThoughAnotherSizeFailed) {
+    const ViewerId large = join({16, 12});
+    drawLast();
+    const ViewerId author = join({8, 6});
+    view->takeControl(author);
+    drawLast();
+    for (const ViewerId viewer : {large, author}) {
+        ASSERT_TRUE(frameOf(viewer).has_value());
+        while (view->takeMail(viewer)) {
+        }
+    }
+    v1::Update update;
+    update.set_input_seq(5);
+    scene::Scene bad = newest().scene;
+    bad.layers[0].gain = 1;
+    *update.mutable_scene() = worker::toMessage(bad);
+    ASSERT_TRUE(view->update(author, update, Clock::now()).has_value());
+    const workers::RenderRequest asked = newest();
+    ASSERT_EQ(asked.scene.layers[0].gain, 1);
+    events.failed(asked.view, asked.tag, fail(ErrorCode::kInvalidArgument, "no", "layers[0].gain"));
+    const auto told = [this](ViewerId viewer) {
+        std::string all;
+        while (const auto mail = view->takeMail(viewer)) all += mail->ShortDebugString() + "\n";
+        return all;
+    };
+    const std::string byAuthor = told(author), byOther = told(large);
+    EXPECT_NE(byAuthor.find("scene.layers[0].gain"), std::string::npos) << byAuthor;
+    EXPECT_EQ(byAuthor.find("scene_changed"), std::string::npos) << byAuthor;
+    EXPECT_NE(byOther.find("scene.layers[0].gain"), std::string::npos) << byOther;
+    EXPECT_NE(byOther.find("scene_changed"), std::string::npos) << byOther;
+    EXPECT_EQ(newest().scene.layers[0].gain, 0);
 }
 
 TEST_F(SharedViewTest, ASlowWatcherLeavesTheOthersTheirFrames) {

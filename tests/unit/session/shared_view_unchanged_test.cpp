@@ -101,5 +101,31 @@ TEST_F(SharedViewTest, AnUpdateThatChangesNothingLeavesWhatMayBeRedone) {
     EXPECT_EQ(newest().scene.camera.eye.x, 5.0);
 }
 
+TEST_F(SharedViewTest, ASizeOfItsOwnIsSaved) {
+    const ViewerId viewer = join();
+    drawLast();
+    const int before = saves;
+    v1::Update update;
+    update.set_input_seq(2);
+    update.mutable_viewport()->set_width(16);
+    update.mutable_viewport()->set_height(12);
+    ASSERT_TRUE(view->update(viewer, update, Clock::now()).has_value());
+    EXPECT_GT(saves, before);
+}
+
+TEST_F(SharedViewTest, AnUpdateThatChangesNothingWhileThePictureIsDrawnLeavesWhatMayBeRedone) {
+    const ViewerId viewer = join();
+    look(viewer, 2, 5.0);
+    v1::Undo undo;
+    view->undo(viewer, undo, Clock::now());
+    v1::Update whole;
+    whole.set_input_seq(4);
+    *whole.mutable_scene() = worker::toMessage(newest().scene);
+    ASSERT_TRUE(view->update(viewer, whole, Clock::now()).has_value());
+    undo.set_redo(true);
+    view->undo(viewer, undo, Clock::now());
+    EXPECT_EQ(newest().scene.camera.eye.x, 5.0);
+}
+
 }  // namespace
 }  // namespace volcast::session

@@ -268,6 +268,58 @@ TEST_F(VideoGroupTest, WhoMissesAPictureCostsTheOthersNoKeyframes) {
     EXPECT_EQ(slowKeys, 2) << "on joining, and once on its own";
 }
 
+// Whichever of them is asked first.
+TEST_F(VideoGroupTest, TheKeyframesOfWhoMissesPicturesAreNotForTheOthers) {
+    Viewer slow = make(), fast = make();
+    int fastKeys = 0, slowKeys = 0;
+    for (int i = 0; i < 9; ++i) {
+        drawPicture();
+        if (i % 3 == 0) {
+            const auto late = sendAndAck(slow);
+            ASSERT_TRUE(late.has_value());
+            slowKeys += late->header.keyframe() ? 1 : 0;
+        }
+        const auto frame = sendAndAck(fast);
+        ASSERT_TRUE(frame.has_value());
+        fastKeys += frame->header.keyframe() ? 1 : 0;
+    }
+    EXPECT_EQ(fastKeys, 1);
+    EXPECT_EQ(slowKeys, 2) << "on joining, and once on its own";
+}
+
+TEST_F(VideoGroupTest, WhereVideoCannotBeEncodedThePictureComesAsJpeg) {
+    Viewer first = make(), second = make();
+    drawPicture();
+    const auto failed = first.takeEncode(now);
+    ASSERT_TRUE(failed && isVideo(failed->format.codec));
+    failed->done = failed->begun = true;
+    failed->error = fail(ErrorCode::kIo, "the encoder has no room for another stream");
+    EXPECT_TRUE(first.encoded());
+    const auto frame = send(first);
+    ASSERT_TRUE(frame.has_value());
+    EXPECT_EQ(frame->header.codec(), v1::CODEC_JPEG);
+    EXPECT_EQ(frame->header.input_seq(), pictures);
+    const auto own = second.takeEncode(now);
+    ASSERT_TRUE(own != nullptr);
+    EXPECT_NE(own, failed) << "what failed is of no use to others";
+    drawPicture();
+    first.acked({.sequence = frame->sequence}, now);
+    EXPECT_EQ(send(first)->header.codec(), v1::CODEC_JPEG) << "it is not tried again";
+}
+
+TEST_F(VideoGroupTest, APictureThatAnotherOvertookInTheEncoderComesAsAKeyframe) {
+    Viewer one = make();
+    drawPicture();
+    const auto late = one.takeEncode(now);
+    late->done = late->begun = true;
+    late->error = late->group->encode({}, 0, false).error();
+    EXPECT_TRUE(one.encoded());
+    const auto frame = send(one);
+    ASSERT_TRUE(frame.has_value());
+    EXPECT_EQ(frame->header.codec(), v1::CODEC_VP9);
+    EXPECT_TRUE(frame->header.keyframe());
+}
+
 TEST_F(VideoGroupTest, AClientThatCannotDecodeGetsAKeyframeNext) {
     Viewer one = make();
     drawPicture();

@@ -202,6 +202,23 @@ TEST(VideoEncoders, OneThatDoesNotOpenLeadsToTheNext) {
         << vaapi->detail;
 }
 
+TEST(VideoEncoders, OneThatFailsAtAPictureIsLeftForTheNext) {
+    for (const EncoderFinding& finding : videoEncoders()) {
+        if (finding.works) continue;
+        const auto stream = VideoStream::create(finding.codec, finding.name);
+        ASSERT_TRUE(stream.has_value()) << finding.name;
+        const auto others = videoEncoders();
+        const auto used = std::ranges::find_if(
+            others, [&finding](const auto& one) { return one.codec == finding.codec && one.used; });
+        const Picture picture = drawnPicture({64, 48}, 0);
+        const auto encoded = (*stream)->encode(picture.view(), 90);
+        ASSERT_EQ(encoded.has_value(), used != others.end()) << finding.name;
+        if (!encoded) continue;
+        EXPECT_TRUE(encoded->keyframe);
+        EXPECT_EQ((*stream)->encoder(), used->name);
+    }
+}
+
 TEST(ColourPatch, PassesAsItIsAndFailsWithAnotherRangeOrMatrix) {
     const ImageView patch = colourPatch();
     std::vector<std::byte> right, limited, bt601;
