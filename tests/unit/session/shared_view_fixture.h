@@ -49,7 +49,7 @@ protected:
                            Clock::now());
     }
     void look(ViewerId viewer, std::uint64_t seq) { look(viewer, seq, static_cast<double>(seq)); }
-    void look(ViewerId viewer, std::uint64_t seq, double x) {
+    void look(ViewerId viewer, std::uint64_t seq, double x, TimePoint now = Clock::now()) {
         v1::Update update;
         update.set_input_seq(seq);
         v1::Camera& camera = *update.mutable_camera();
@@ -57,7 +57,7 @@ protected:
         camera.mutable_center();
         camera.mutable_up()->set_z(1);
         camera.set_fovy_degrees(40);
-        ASSERT_TRUE(view->update(viewer, update, Clock::now()).has_value());
+        ASSERT_TRUE(view->update(viewer, update, now).has_value());
     }
     /// What the renderer was asked for last.
     workers::RenderRequest newest() {

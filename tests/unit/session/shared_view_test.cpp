@@ -67,13 +67,16 @@ TEST_F(SharedViewTest, ADragThatIsDrawnSlowlyLeavesOtherSizesTheirTurns) {
     std::map<int, int> drawnOf;
     workers::RenderRequest inFlight = newest();
     for (std::uint64_t seq = 2; seq < 20; ++seq) {
-        look(small, seq);
+        // Later than any wait for the highest rate of frames.
+        look(small, seq, static_cast<double>(seq), Clock::now() + std::chrono::seconds{1});
         events.rendered(drawn(inFlight));
         ++drawnOf[inFlight.size.x];
         const ViewerId shown = inFlight.size.x == 8 ? small : large;
         const auto frame = frameOf(shown);
         ASSERT_TRUE(frame.has_value());
-        ack(shown, frame->sequence);
+        // Acked as from far away, so that several pictures may be under way.
+        view->acked(shown, {.sequence = frame->sequence},
+                    Clock::now() + std::chrono::milliseconds{200});
         inFlight = newest();
     }
     EXPECT_GE(drawnOf[8], 5);
