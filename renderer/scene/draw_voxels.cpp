@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "renderer/data/volume_builder.h"
 #include "renderer/plan/effects.h"
 #include "renderer/scene/brick_view.h"
@@ -108,6 +110,12 @@ PixelBox coverOfRays(const Frame& frame, const LayerDraw& draw) {
                    draw.emptySpace != nullptr ? draw.emptySpace->box() : all);
 }
 
+PixelBox within(PixelBox box, Rows rows) {
+    const int first = std::max(box.low.y, rows.first);
+    const int end = std::min(box.low.y + box.size.y, rows.end);
+    return {.low = {box.low.x, first}, .size = {box.size.x, std::max(0, end - first)}};
+}
+
 }  // namespace
 
 Result<void> prepareVoxels(DrawContext& context, const Frame& frame, LayerDraw& draw) {
@@ -123,7 +131,7 @@ Result<void> prepareVoxels(DrawContext& context, const Frame& frame, LayerDraw& 
 }
 
 Result<void> drawVoxels(const DrawContext& context, const Frame& frame, const LayerDraw& draw,
-                        const gpu::Target& target) {
+                        const gpu::Target& target, Rows rows) {
     volume::DrawInputs inputs{.device = context.device,
                               .programs = context.programs,
                               .channel = draw.channel,
@@ -138,7 +146,7 @@ Result<void> drawVoxels(const DrawContext& context, const Frame& frame, const La
                               .filterInHardware = context.filterInHardware,
                               .constants = draw.constants,
                               .target = &target};
-    const PixelBox cover = coverOfRays(frame, draw);
+    const PixelBox cover = within(coverOfRays(frame, draw), rows);
     inputs.cover = {cover.low, cover.size};
     if (cover.size.x == 0 || cover.size.y == 0) return {};
     if (draw.code) {

@@ -35,6 +35,11 @@ struct LayerDraw {
     std::vector<shading::Constant> constants;
 };
 
+/// Rows of a picture, from `first` to before `end`.
+struct Rows {
+    int first = 0, end = 0;
+};
+
 /// One call of render(), from validation to pixels.
 struct Frame {
     View* view = nullptr;
@@ -47,11 +52,19 @@ struct Frame {
     DepthRange depths;
     std::uint64_t cameraVersion = 0;
     bool countsSteps = false;
+    double partMs = 0.0;  ///< As FrameTarget::partMs.
 };
 
 inline bool isProjected(const LayerDraw& draw) {
     return draw.plan->evaluator == plan::Evaluator::kMeshProjection ||
            draw.plan->evaluator == plan::Evaluator::kMeshProjectionFaces;
+}
+
+/// Rows of it can be drawn by themselves.
+inline bool goesByRows(const LayerDraw& draw) {
+    return !draw.dataset->summary().isMesh &&
+           draw.plan->evaluator != plan::Evaluator::kVolumeSlices &&
+           draw.plan->evaluator != plan::Evaluator::kVolumeSliceInstances;
 }
 
 inline bool isOpaque(const LayerDraw& draw) {

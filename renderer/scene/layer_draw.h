@@ -26,6 +26,6 @@ Result<void> prepareVoxels(DrawContext& context, const Frame& frame, LayerDraw& 
 Result<void> drawMesh(const DrawContext& context, const Frame& frame, const LayerDraw& draw,
                       const gpu::Target& target);
 Result<void> drawVoxels(const DrawContext& context, const Frame& frame, const LayerDraw& draw,
-                        const gpu::Target& target);
+                        const gpu::Target& target, Rows rows);
 
 }  // namespace volcast::scene

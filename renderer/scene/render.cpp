@@ -16,6 +16,8 @@
 namespace volcast::scene {
 namespace {
 
+constexpr int kFewestRows = 64;  ///< Drawn at once: llvmpipe's tiles have as many.
+
 // Rays that meet no opaque layer end nowhere.
 constexpr float kNoSurface = 3.0e38F;
 
@@ -85,8 +87,10 @@ private:
     Result<void> prepare(Frame& frame);
     Result<void> prepareLayer(Frame& frame, LayerDraw& draw);
     Result<void> sendBlocks(Frame& frame);
-    Result<void> drawLayers(const Frame& frame);
-    Result<void> drawLayer(const Frame& frame, const LayerDraw& draw);
+    [[nodiscard]] Progress progressOf(const Frame& frame);
+    /// False where there is more to draw than a part of it.
+    Result<bool> drawLayers(const Frame& frame, Progress& progress);
+    Result<void> drawLayer(const Frame& frame, const LayerDraw& draw, Rows rows);
     Result<void> resolve(const Frame& frame);
     Result<void> make(Frame& frame, Work work, FrameInfo& info);
     Result<void> readBack(const Picture& picture, const FrameTarget& target);
@@ -134,6 +138,7 @@ Result<FrameInfo> DeviceRenderer::render(std::uint64_t view, const Scene& scene,
     frame.size = size;
     frame.plan = &info.plan;
     frame.countsSteps = target.countsSteps;
+    frame.partMs = target.countsSteps ? 0.0 : target.partMs;
     ++context_.frame;
     for (std::size_t i = 0; i < scene.layers.size(); ++i) {
         const Layer& layer = scene.layers[i];
@@ -151,12 +156,15 @@ Result<FrameInfo> DeviceRenderer::render(std::uint64_t view, const Scene& scene,
     const Work work = workFor(frame);
     std::map<data::VoxelType, int> bricked;
     for (const LayerDraw& draw : frame.draws) {
-        if (draw.plan->has(plan::kBricks)) ++bricked[draw.dataset->summary().voxelType];
+        if (!draw.plan->has(plan::kBricks)) continue;
+        ++bricked[draw.dataset->summary().voxelType];
+        frame.partMs = 0.0;
     }
     context_.bricks.begin(view, context_.frame, std::move(bricked), target.complete);
     const Result<void> made = make(frame, work, info);
     countWork();
     if (!made) return made.error();
+    if (!info.finished) return info;
     gpu::Timer timer{device_};
     const Result<void> read = readBack(*frame.view->picture, target);
     if (!read) return read.error();
@@ -223,18 +231,28 @@ Result<void> DeviceRenderer::make(Frame& frame, Work work, FrameInfo& info) {
     if (!done) return done;
     const Result<double> uploadMs = timer.lapMs();
     if (!uploadMs) return uploadMs.error();
+    Progress progress = progressOf(frame);
+    view.progress.reset();
     if (work == Work::kAll) {
         if (larger == nullptr) view.stale = true;
-        done = drawLayers(frame);
+        const Result<bool> all = drawLayers(frame, progress);
+        if (!all) return all.error();
+        info.finished = *all;
+    }
+    if (info.finished) {
+        done = resolve(frame);
         if (!done) return done;
     }
-    done = resolve(frame);
-    if (!done) return done;
     const Result<double> drawMs = timer.lapMs();
     if (!drawMs) return drawMs.error();
-    info.uploadMs = *uploadMs;
-    info.drawMs = *drawMs;
+    info.uploadMs = progress.uploadMs += *uploadMs;
+    info.drawMs = progress.drawMs += *drawMs;
     if (larger != nullptr) view.picture = std::move(larger);
+    if (!info.finished) {
+        view.stale = true;
+        view.progress = std::move(progress);
+        return {};
+    }
     view.scene = *frame.scene;
     view.generations = std::move(frame.generations);
     view.stale = false;
@@ -306,26 +324,55 @@ Result<void> DeviceRenderer::sendBlocks(Frame& frame) {
     return frame.view->blocks.set(device_, frame.scene->background, blocks);
 }
 
-Result<void> DeviceRenderer::drawLayers(const Frame& frame) {
-    const Picture& picture = *frame.picture;
-    picture.transparentPass.clearColour(0, glm::vec4(0.0F));
-    const bool opaque = std::ranges::any_of(frame.draws, isOpaque);
-    if (opaque) {
-        picture.opaquePass.clearColour(1, glm::vec4(kNoSurface));
-        picture.opaquePass.clearDepth();
-    }
-    for (const bool opaqueFirst : {true, false}) {
-        for (const LayerDraw& draw : frame.draws) {
-            if (isOpaque(draw) != opaqueFirst) continue;
-            Result<void> drawn = drawLayer(frame, draw);
-            if (drawn) drawn = device_.check("layer \"" + draw.layer->id + "\"");
-            if (!drawn) return drawn;
-        }
-    }
-    return {};
+/// Where to go on: where the view's last picture stopped if it is this one, else at its beginning.
+Progress DeviceRenderer::progressOf(const Frame& frame) {
+    const std::optional<Progress>& last = frame.view->progress;
+    const bool goesOn = last && frame.partMs > 0.0 && last->size == frame.size &&
+                        last->plan == frame.plan->id && last->generations == frame.generations &&
+                        last->scene == *frame.scene;
+    if (goesOn) return *last;
+    return {.scene = *frame.scene,
+            .size = frame.size,
+            .plan = frame.plan->id,
+            .generations = frame.generations};
 }
 
-Result<void> DeviceRenderer::drawLayer(const Frame& frame, const LayerDraw& draw) {
+Result<bool> DeviceRenderer::drawLayers(const Frame& frame, Progress& progress) {
+    std::vector<const LayerDraw*> order;
+    for (const LayerDraw& draw : frame.draws) order.push_back(&draw);
+    std::ranges::stable_partition(order, [](const LayerDraw* draw) { return isOpaque(*draw); });
+    if (progress.begins()) {
+        const Picture& picture = *frame.picture;
+        picture.transparentPass.clearColour(0, glm::vec4(0.0F));
+        if (!order.empty() && isOpaque(*order.front())) {
+            picture.opaquePass.clearColour(1, glm::vec4(kNoSurface));
+            picture.opaquePass.clearDepth();
+        }
+    }
+    gpu::Timer timer{device_};
+    double spentMs = 0.0;
+    for (; progress.layer < order.size(); ++progress.layer, progress.row = 0) {
+        const LayerDraw& draw = *order[progress.layer];
+        int rows = frame.partMs > 0.0 && goesByRows(draw) ? kFewestRows : frame.size.y;
+        while (progress.row < frame.size.y) {
+            const int end = std::min(progress.row + rows, frame.size.y);
+            Result<void> drawn = drawLayer(frame, draw, {.first = progress.row, .end = end});
+            if (drawn) drawn = device_.check("layer \"" + draw.layer->id + "\"");
+            if (!drawn) return drawn.error();
+            progress.row = end;
+            if (frame.partMs <= 0.0) continue;
+            const Result<double> ms = timer.lapMs();
+            if (!ms) return ms.error();
+            spentMs += *ms;
+            const bool more = end < frame.size.y || progress.layer + 1 < order.size();
+            if (spentMs >= frame.partMs && more) return false;
+            if (*ms < frame.partMs / 4) rows *= 2;
+        }
+    }
+    return true;
+}
+
+Result<void> DeviceRenderer::drawLayer(const Frame& frame, const LayerDraw& draw, Rows rows) {
     frame.view->blocks.bindLayer(draw.index);
     if (draw.code) {
         draw.state->controls.bind();
@@ -338,7 +385,7 @@ Result<void> DeviceRenderer::drawLayer(const Frame& frame, const LayerDraw& draw
     const gpu::Target* target =
         isOpaque(draw) ? &frame.picture->opaquePass : &frame.picture->transparentPass;
     return draw.dataset->summary().isMesh ? drawMesh(context_, frame, draw, *target)
-                                          : drawVoxels(context_, frame, draw, *target);
+                                          : drawVoxels(context_, frame, draw, *target, rows);
 }
 
 Result<void> DeviceRenderer::resolve(const Frame& frame) {

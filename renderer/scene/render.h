@@ -55,6 +55,9 @@ struct FrameInfo {
     std::vector<LayerBricks> bricks;  ///< Of the layers that are drawn from bricks.
     /// False: bricks are missing, coarser ones stand in; the same call again loads more of them.
     bool ready = true;
+    /// False: a part was drawn and no pixels were read; the same call again goes on. Times are
+    /// those of all parts.
+    bool finished = true;
     double uploadMs = 0.0;
     double drawMs = 0.0;  ///< Until the GPU was done.
     double readbackMs = 0.0;
@@ -70,6 +73,9 @@ struct FrameTarget {
     std::span<float> rgba32f = {};
     bool complete = false;     ///< Loads all bricks that are needed, however long that takes.
     bool countsSteps = false;  ///< Draws anew, slower, and tells what every layer took.
+    /// Drawing stops when it has taken so long and there is more, at the next row or layer where it
+    /// can; 0: never. Layers from bricks are drawn whole: what they draw from changes in between.
+    double partMs = 0.0;
 };
 
 /// Draws scenes of several views on one device; all calls on the device's thread.

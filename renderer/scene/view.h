@@ -42,6 +42,18 @@ struct Rays {
     friend bool operator==(const Rays&, const Rays&) = default;
 };
 
+/// How far a picture is that is drawn in parts, and of what it is.
+struct Progress {
+    Scene scene;
+    PictureSize size{0};
+    std::string plan;  ///< Its id.
+    std::map<std::string, std::uint64_t> generations;
+    std::size_t layer = 0;  ///< In the order of drawing; those before are drawn.
+    int row = 0;            ///< Of that layer; those above are drawn.
+    double uploadMs = 0.0, drawMs = 0.0;
+    [[nodiscard]] bool begins() const noexcept { return layer == 0 && row == 0; }
+};
+
 /// What the renderer remembers of a view between its pictures.
 struct View {
     Scene scene;  ///< As last drawn.
@@ -50,8 +62,9 @@ struct View {
     std::map<std::string, LayerState> layers;          ///< By layer id.
     ViewBlocks blocks;
     Rays rays;
-    std::uint64_t cameraVersion = 0;  ///< Grows whenever `rays` changes.
-    bool ready = true;                ///< Its picture shows all bricks that it needs.
+    std::uint64_t cameraVersion = 0;   ///< Grows whenever `rays` changes.
+    bool ready = true;                 ///< Its picture shows all bricks that it needs.
+    std::optional<Progress> progress;  ///< Of a picture that is not finished.
     bool stale = true;  ///< The 32F layers are not those of `scene`; the resolved picture is.
 };
 

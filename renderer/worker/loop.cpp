@@ -97,6 +97,7 @@ Result<void> Loop::handle(const wire::ToWorker& message, const Descriptors& desc
         case wire::ToWorker::kRender: return render(message.render(), descriptors);
         case wire::ToWorker::kDropView: {
             renderer_.dropView(message.drop_view().view());
+            partsCpuMs_.erase(message.drop_view().view());
             return {};
         }
         case wire::ToWorker::kPing: {
@@ -154,7 +155,7 @@ Result<void> Loop::warmUp(std::uint32_t step) {
     return reply(std::move(answer));
 }
 
-Result<wire::Rendered> Loop::draw(const wire::Render& request, const Descriptors& descriptors) {
+Result<wire::FromWorker> Loop::draw(const wire::Render& request, const Descriptors& descriptors) {
     const scene::PictureSize size{static_cast<int>(request.width()),
                                   static_cast<int>(request.height())};
     if (Result<void> valid = scene::validate(size); !valid) return std::move(valid).error();
@@ -168,12 +169,20 @@ Result<wire::Rendered> Loop::draw(const wire::Render& request, const Descriptors
     auto scene = sceneFrom(request.scene());
     if (!scene) return std::move(scene).error();
 
+    target->partMs = request.part_ms();
     const double cpuBefore = cpuMs();
     const auto evidence = evidence_.of(*scene, size);
     if (!evidence) return evidence.error();
     auto info = renderer_.render(request.view(), *scene, size, *target, *evidence);
     if (!info) return std::move(info).error();
-    wire::Rendered rendered;
+    wire::FromWorker answer;
+    double& partsCpuMs = partsCpuMs_[request.view()];
+    partsCpuMs += cpuMs() - cpuBefore;
+    if (!info->finished) {
+        answer.mutable_rendering()->set_request(request.request());
+        return answer;
+    }
+    wire::Rendered& rendered = *answer.mutable_rendered();
     rendered.set_request(request.request());
     rendered.set_view(request.view());
     rendered.set_slot(request.slot());
@@ -183,12 +192,13 @@ Result<wire::Rendered> Loop::draw(const wire::Render& request, const Descriptors
     rendered.set_upload_ms(info->uploadMs);
     rendered.set_draw_ms(info->drawMs);
     rendered.set_readback_ms(info->readbackMs);
-    rendered.set_cpu_ms(cpuMs() - cpuBefore);
+    rendered.set_cpu_ms(partsCpuMs);
+    partsCpuMs_.erase(request.view());
     rendered.set_peak_mb(peakMb());
     rendered.set_drawn(info->drawn);
     rendered.set_ready(info->ready);
     put(info->work, rendered.mutable_work());
-    return rendered;
+    return answer;
 }
 
 Result<void> Loop::render(const wire::Render& request, const Descriptors& descriptors) {
@@ -196,17 +206,16 @@ Result<void> Loop::render(const wire::Render& request, const Descriptors& descri
     if (descriptors.size() != expected) {
         return oneDescriptorExpected("a new frame slot", descriptors.size());
     }
-    auto rendered = draw(request, descriptors);
+    auto answer = draw(request, descriptors);
     if (Result<void> alive = checkDevice(); !alive) return alive;
-    if (!rendered) {
+    if (!answer) {
+        partsCpuMs_.erase(request.view());
         wire::Failed failed;
         failed.set_request(request.request());
         failed.set_view(request.view());
-        return refuse(rendered.error(), std::move(failed));
+        return refuse(answer.error(), std::move(failed));
     }
-    wire::FromWorker answer;
-    *answer.mutable_rendered() = *std::move(rendered);
-    return reply(std::move(answer));
+    return reply(*std::move(answer));
 }
 
 Result<void> Loop::measure(const wire::Measure& request) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -47,8 +48,8 @@ private:
     Result<void> warmUp(std::uint32_t step);
     Result<void> render(const internal::v1::Render& request, const Descriptors& descriptors);
     /// Errors are the request's own, but for kDeviceLost.
-    Result<internal::v1::Rendered> draw(const internal::v1::Render& request,
-                                        const Descriptors& descriptors);
+    Result<internal::v1::FromWorker> draw(const internal::v1::Render& request,
+                                          const Descriptors& descriptors);
     Result<void> measure(const internal::v1::Measure& request);
     /// A part of it; empty: there is more.
     Result<std::optional<accuracy::Measurement>> advance(const accuracy::Job& job);
@@ -68,6 +69,7 @@ private:
     accuracy::EvidenceKeeper evidence_;
     pick::Picker picker_;
     Slots slots_;
+    std::map<std::uint64_t, double> partsCpuMs_;  ///< Of unfinished pictures, by view.
     bool deviceLost_ = false;
     std::unique_ptr<ArmedFault> fault_;  ///< Null but in tests.
 };

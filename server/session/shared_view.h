@@ -169,6 +169,8 @@ private:
     bool encodingFailed(Viewer& viewer, const Error& error);
     /// It has something to draw, and a viewer of it could soon be sent that.
     [[nodiscard]] bool isWanted(const std::shared_ptr<Rendition>& rendition, TimePoint now) const;
+    /// All its viewers were left alone and shown what there is to see: nobody waits for it.
+    [[nodiscard]] bool isPatient(const std::shared_ptr<Rendition>& rendition) const;
     [[nodiscard]] bool mayDraw(const std::shared_ptr<Rendition>& rendition, TimePoint now) const;
     void draw(const std::shared_ptr<Rendition>& rendition, TimePoint now);
     void settle(std::uint64_t tag);
@@ -210,6 +212,7 @@ private:
 
     std::vector<std::shared_ptr<Rendition>> renditions_;  ///< The one drawn last is last.
     std::shared_ptr<Rendition> drawing_;  ///< Whose request is at the render service.
+    bool drawsPatiently_ = false;         ///< That one.
     DrawPace drawPace_;
     std::uint64_t lastTag_ = 0;
     std::uint64_t lastPicture_ = 0;

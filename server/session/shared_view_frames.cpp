@@ -60,9 +60,16 @@ bool SharedView::isWanted(const std::shared_ptr<Rendition>& rendition, TimePoint
            });
 }
 
+bool SharedView::isPatient(const std::shared_ptr<Rendition>& rendition) const {
+    return std::ranges::all_of(viewers_, [&](const auto& one) {
+        return one.second->rendition != rendition || one.second->resting();
+    });
+}
+
 bool SharedView::mayDraw(const std::shared_ptr<Rendition>& rendition, TimePoint now) const {
     if (ended_ || !state_.scene || !isWanted(rendition, now)) return false;
     if (!drawing_) return true;
+    if (drawsPatiently_ && !isPatient(rendition)) return true;
     // A newer state takes the place of the one that waits there, unless that would keep another
     // rendition from its turn for as long as inputs come.
     return drawing_ == rendition && std::ranges::none_of(renditions_, [&](const auto& other) {
@@ -71,7 +78,10 @@ bool SharedView::mayDraw(const std::shared_ptr<Rendition>& rendition, TimePoint 
 }
 
 void SharedView::draw(const std::shared_ptr<Rendition>& rendition, TimePoint now) {
+    const bool ends = drawing_ && drawing_ != rendition;  // The request of another that is patient.
+    if (ends) drawing_->want();
     drawing_ = rendition;
+    drawsPatiently_ = isPatient(rendition);
     rendition->asked(++lastTag_, state_, now);
     // The one that is drawn goes to the end, so that others have their turn.
     const auto isOther = [&rendition](const auto& one) { return one != rendition; };
@@ -82,7 +92,8 @@ void SharedView::draw(const std::shared_ptr<Rendition>& rendition, TimePoint now
                                    .scene = *state_.scene,
                                    .size = rendition->key().size,
                                    .hurried = !rendition->key().fullAccuracy,
-                                   .viewId = id_};
+                                   .viewId = id_,
+                                   .patient = drawsPatiently_};
     outbox_.put([&render = parts_.render, request = std::move(request)]() mutable {
         render.submit(std::move(request));
     });

@@ -88,7 +88,8 @@ void SharedView::askThumbnail(ViewerId id) {
                                    .scene = sketch.scene,
                                    .size = sketch.size,
                                    .viewId = id_,
-                                   .background = true};
+                                   .background = true,
+                                   .patient = true};
     outbox_.put([&render = parts_.render, request = std::move(request)]() mutable {
         render.submit(std::move(request));
     });

@@ -75,7 +75,7 @@ workers::RenderRequest Thumbnails::request() {
     request.tag = ++tag_;
     request.scene = scene::defaultScene(current_->first, summaries.at(current_->first));
     request.size = kSize;
-    request.background = true;
+    request.background = request.patient = true;
     ++tries_;
     return request;
 }

@@ -69,6 +69,7 @@ public:
     [[nodiscard]] const ClientCodecs& codecs() const noexcept { return desc_.codecs; }
     /// Where it has been left alone for long enough, the picture in full is wanted from now on.
     void rest(TimePoint now);
+    [[nodiscard]] bool resting() const noexcept { return resting_; }
     /// From now on it takes pictures from here.
     void moveTo(std::shared_ptr<Rendition> to);
     [[nodiscard]] scene::PictureSize size() const noexcept { return desc_.size; }

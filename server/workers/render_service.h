@@ -35,6 +35,9 @@ struct RenderRequest {
     bool wantFloat = false;
     std::string viewId = {};  ///< What the log calls the view.
     bool background = false;  ///< Drawn when no view waits for a picture.
+    /// Nobody waits for it: it is drawn in parts, other views have their turns between them, and a
+    /// newer request of its view ends it.
+    bool patient = false;
 };
 
 /// One candidate of a picture to measure, in the name of a view.
@@ -126,9 +129,9 @@ struct RenderEvents {
 /// are stopped, hang, or miss a deadline. One worker draws, one warm spare waits.
 ///
 /// Each view has a one-slot mailbox: a newer request replaces one that has not started. Views
-/// take turns. A request in flight when its worker is lost is drawn again by the next; one that
-/// loses two workers in a row fails with kDeviceLost and does not take a third one down.
-/// All methods may be called from any thread.
+/// take turns, a patient request one for each of its parts. A request in flight when its worker is
+/// lost is drawn again by the next; one that loses two workers in a row fails with kDeviceLost and
+/// does not take a third one down. All methods may be called from any thread.
 class RenderService {
 public:
     /// Starts the first worker and waits until it is ready.

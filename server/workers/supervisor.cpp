@@ -198,6 +198,7 @@ void Supervisor::handle(Worker& worker, const WorkerProcess::Answer& answer) {
     if (answer.has_rendered() && rehearsal_.ended(answer.rendered().request())) return;
     if (answer.has_failed()) return refuse(answer.failed());
     if (answer.has_rendered()) return finish(answer.rendered());
+    if (answer.has_rendering()) return drawnInPart(answer.rendering().request());
     if (answer.has_measuring()) return continueMeasure(answer.measuring().request());
     if (answer.has_measured()) {
         return finishMeasure(answer.measured().request(),
@@ -265,6 +266,15 @@ void Supervisor::finish(const internal::v1::Rendered& rendered) {
     if (events_.rendered) events_.rendered(std::move(frame));
 }
 
+void Supervisor::drawnInPart(std::uint64_t number) {
+    if (!inFlight_ || number != inFlight_->number || !inFlight_->request.patient) {
+        return lose(main_, "drew a part of a picture nobody asked for");
+    }
+    InFlight part = *std::exchange(inFlight_, std::nullopt);
+    views_.drawnInPart(
+        {.request = std::move(part.request), .submitted = part.submitted, .waitedMs = part.waitMs});
+}
+
 void Supervisor::refuse(const internal::v1::Failed& failed) {
     Error error = worker::errorFrom(failed);
     if (failed.request() == 0) {
@@ -295,8 +305,12 @@ void Supervisor::dispatch() {
             if (events_.failed) events_.failed(request.view, request.tag, asked.error());
             continue;
         }
-        const double waitMs = msBetween(next->submitted, Clock::now());
-        inFlight_ = {.request = std::move(next->request), .number = nextNumber_, .waitMs = waitMs};
+        const double waitMs =
+            next->waitedMs >= 0.0 ? next->waitedMs : msBetween(next->submitted, Clock::now());
+        inFlight_ = {.request = std::move(next->request),
+                     .number = nextNumber_,
+                     .waitMs = waitMs,
+                     .submitted = next->submitted};
         ++nextNumber_;
         static_cast<void>(main_->flush());  // serve() notices a closed channel.
     }

@@ -64,6 +64,7 @@ private:
         RenderRequest request;
         std::uint64_t number = 0;
         double waitMs = 0.0;
+        Clock::time_point submitted{};
     };
 
     struct PickInHand {
@@ -77,6 +78,7 @@ private:
     void serve(Worker& worker);
     void handle(Worker& worker, const WorkerProcess::Answer& answer);
     void finish(const internal::v1::Rendered& rendered);
+    void drawnInPart(std::uint64_t number);
     void refuse(const internal::v1::Failed& failed);
     void dispatch();
     void dispatchMeasure();

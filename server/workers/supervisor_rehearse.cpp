@@ -32,7 +32,9 @@ void Supervisor::rehearse() {
     if (inFlight_ || !spareIdle()) return;
     const RenderRequest* request = toRehearse();
     if (request == nullptr) return;
-    if (!spare_->render(nextNumber_, *request, settings_.frameDeadline)) return;
+    RenderRequest whole = *request;
+    whole.patient = false;
+    if (!spare_->render(nextNumber_, whole, settings_.frameDeadline)) return;
     rehearsal_.began(spare_->pid(), nextNumber_++, *request);
     static_cast<void>(spare_->flush());
 }

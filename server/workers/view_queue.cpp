@@ -78,6 +78,13 @@ const RenderRequest* ViewQueue::lastDrawn() const {
     return view != views_.end() && view->second.lastGood ? &*view->second.lastGood : nullptr;
 }
 
+void ViewQueue::drawnInPart(TimedRequest request) {
+    const std::uint64_t id = request.request.view;
+    const auto found = views_.find(id);
+    if (found == views_.end() || found->second.waiting) return;
+    wait(id, found->second, std::move(request));
+}
+
 void ViewQueue::refused(std::uint64_t view) {
     const auto found = views_.find(view);
     if (found != views_.end()) found->second.lossesInARow = 0;
@@ -102,7 +109,7 @@ ViewQueue::Loss ViewQueue::lost(std::optional<RenderRequest> inFlight, Clock::ti
         if (!loss.proven) hold(view, *inFlight);
         loss.givenUp.push_back(*std::move(inFlight));
         const bool sameWaits = view.waiting && (loss.proven || holds(view.waiting->request));
-        if (sameWaits) loss.givenUp.push_back(std::exchange(view.waiting, {})->request);
+        if (sameWaits) loss.givenUp.push_back(std::exchange(view.waiting, std::nullopt)->request);
         if (view.waiting) turns_.push_back(suspect);
         return loss;
     }

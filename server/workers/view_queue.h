@@ -15,6 +15,7 @@ namespace volcast::workers {
 struct TimedRequest {
     RenderRequest request;
     std::chrono::steady_clock::time_point submitted;
+    double waitedMs = -1.0;  ///< Until its first part was drawn; negative: none was.
 };
 
 /// Who is drawn next: a one-slot mailbox for each view, views take turns. Remembers what to draw
@@ -47,6 +48,9 @@ public:
     void succeeded(RenderRequest drawn);
     /// The newest good request of all views, those in the background aside; null: none.
     [[nodiscard]] const RenderRequest* lastDrawn() const;
+    /// A part of what was in flight is drawn: it waits for its next turn, unless the view has a
+    /// newer request or was dropped.
+    void drawnInPart(TimedRequest request);
     /// The worker refused the request, and lived.
     void refused(std::uint64_t view);
 

@@ -14,6 +14,8 @@ namespace {
 
 using std::chrono::milliseconds;
 
+constexpr double kPartMs = 30.0;  ///< Of a patient picture: what others may wait for it.
+
 /// What a driver and its tools read from the environment. LP_* is left out but for the number of
 /// threads: a shader cache must never see two vector widths.
 const std::vector<std::string> kEnvironment{
@@ -147,6 +149,7 @@ Result<void> WorkerProcess::render(std::uint64_t number, const RenderRequest& re
     render.set_height(static_cast<std::uint32_t>(request.size.y));
     render.set_slot(slot_);
     render.set_want_float(request.wantFloat);
+    if (request.patient) render.set_part_ms(kPartMs);
     render.set_new_slot(true);
     if (auto fits = checkSize(message); !fits) return fits;
     auto memory = prepareSlot(worker::slotBytes(request.size, request.wantFloat));
@@ -211,7 +214,8 @@ Result<void> WorkerProcess::settle(const Answer& answer) {
     switch (answer.body_case()) {
         case Answer::kReady: expected = owed == Owed::kReady; break;
         case Answer::kDatasetAdded: expected = owed == Owed::kDataset; break;
-        case Answer::kRendered: expected = owed == Owed::kFrame; break;
+        case Answer::kRendered:
+        case Answer::kRendering: expected = owed == Owed::kFrame; break;
         case Answer::kPong: expected = owed == Owed::kPong; break;
         case Answer::kWarmedUp: expected = owed == Owed::kWarmUp; break;
         case Answer::kMeasured:

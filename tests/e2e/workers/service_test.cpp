@@ -107,6 +107,39 @@ TEST(RenderService, NewestRequestWinsAndViewsTakeTurns) {
     }
 }
 
+// 2048 rows in parts of 30 ms: of many, unless a machine draws them all in one.
+TEST(RenderService, APatientPictureIsTheSameAndLetsOthersDrawBetweenItsParts) {
+    const Service service = startService();
+    ASSERT_TRUE(service.service);
+    workers::RenderRequest whole = service.request(1, 1);
+    whole.size = {1024, 2048};
+    whole.scene.layers[0].stepWorld = 0.002;
+    const auto expected = service.draw(whole);
+    ASSERT_TRUE(expected);
+    workers::RenderRequest patient = whole;
+    patient.view = 2;
+    patient.patient = true;
+    service.service->submit(patient);
+    for (std::uint64_t tag = 1; tag <= 3; ++tag) {
+        workers::RenderRequest quick = service.request(3, tag);
+        quick.scene.camera = scene::orbit(quick.scene.camera, static_cast<double>(tag));
+        ASSERT_TRUE(service.draw(quick));
+    }
+    const bool inOne = expected->drawMs < 120;
+    EXPECT_TRUE(inOne || service.events->framesOf(2) == 0) << expected->drawMs;
+    const auto drawn = service.events->waitForTag(2, 1);
+    ASSERT_TRUE(drawn);
+    EXPECT_EQ(drawn->picture->rgba8, expected->picture->rgba8);
+    EXPECT_TRUE(drawn->drawn);
+    // A newer one of its view ends it.
+    patient.tag = 2;
+    patient.scene.camera = scene::orbit(patient.scene.camera, 0.5);
+    service.service->submit(patient);
+    workers::RenderRequest newer = service.request(2, 3);
+    ASSERT_TRUE(service.draw(newer));
+    EXPECT_TRUE(inOne || service.events->framesOf(2) == 2);
+}
+
 TEST(RenderService, PicturesOfAllSizesComeWhole) {
     const Service service = startService();
     ASSERT_TRUE(service.service);

@@ -83,6 +83,39 @@ TEST_F(SharedViewTest, ADragThatIsDrawnSlowlyLeavesOtherSizesTheirTurns) {
     EXPECT_GE(drawnOf[16], 5);
 }
 
+TEST_F(SharedViewTest, APictureAtRestWaitsForOthersAndIsEndedByThem) {
+    constexpr scene::PictureSize kFull{640, 480};
+    const ViewerId one = join(kFull);
+    for (std::uint64_t seq = 2; newest().size == kFull && !newest().hurried; ++seq) {
+        ASSERT_LT(seq, 50U) << "slow pictures cost nothing";
+        workers::RenderedFrame slow = drawn(newest());
+        slow.drawMs = 300;
+        events.rendered(slow);
+        const auto frame = frameOf(one);
+        ASSERT_TRUE(frame.has_value());
+        ack(one, frame->sequence);
+        look(one, seq, static_cast<double>(seq), Clock::now() + std::chrono::seconds{1});
+    }
+    EXPECT_FALSE(newest().patient);
+    drawLast();
+    ack(one, frameOf(one)->sequence);
+    view->tick(one, Clock::now() + std::chrono::seconds{5});
+    ASSERT_TRUE(newest().patient);
+    EXPECT_EQ(newest().size, kFull);
+    EXPECT_FALSE(newest().hurried);
+    // Another one comes while it is drawn: their first picture does not wait for it.
+    const ViewerId other = join({16, 12});
+    ASSERT_FALSE(newest().patient);
+    EXPECT_LE(newest().size.x, 16);
+    drawLast();
+    EXPECT_TRUE(frameOf(other).has_value());
+    view->tick(one, Clock::now() + std::chrono::seconds{5});
+    EXPECT_TRUE(newest().patient) << "it is asked for again";
+    EXPECT_EQ(newest().size, kFull);
+    look(one, 60);
+    EXPECT_FALSE(newest().patient) << "an input does not wait for it either";
+}
+
 TEST_F(SharedViewTest, ARefusedSceneIsToldToWhoSentItThoughAnotherSizeFailed) {
     const ViewerId large = join({16, 12});
     drawLast();

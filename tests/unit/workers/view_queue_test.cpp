@@ -61,6 +61,28 @@ TEST(ViewQueue, WhatIsInTheBackgroundComesWhenNothingElseWaits) {
     EXPECT_EQ(take(queue), Taken(0, 0));
 }
 
+TEST(ViewQueue, WhatIsDrawnInPartWaitsForItsNextTurnUnlessItsViewHasNews) {
+    ViewQueue queue;
+    queue.submit(request(1, 1), kNow);
+    queue.submit(request(2, 1), kNow);
+    auto part = queue.next();
+    ASSERT_TRUE(part.has_value());
+    part->waitedMs = 7.0;
+    queue.drawnInPart(*part);
+    EXPECT_EQ(take(queue), Taken(2, 1)) << "the others first";
+    auto again = queue.next();
+    ASSERT_TRUE(again.has_value());
+    EXPECT_EQ(again->request.tag, 1U);
+    EXPECT_EQ(again->waitedMs, 7.0);
+    queue.submit(request(1, 2), kNow);
+    queue.drawnInPart(*again);
+    EXPECT_EQ(take(queue), Taken(1, 2));
+    EXPECT_EQ(take(queue), Taken(0, 0));
+    queue.drop(1);
+    queue.drawnInPart(*again);
+    EXPECT_EQ(take(queue), Taken(0, 0));
+}
+
 TEST(ViewQueue, DroppedViewIsForgotten) {
     ViewQueue queue;
     queue.submit(request(1, 1), kNow);
