@@ -13,6 +13,7 @@
 
 #include "renderer/base/printable.h"
 #include "server/commands/cache_folder.h"
+#include "server/commands/client_folder.h"
 #include "server/session/thumbnails.h"
 #include "server/session/views.h"
 #include "server/settings.h"
@@ -28,7 +29,7 @@ namespace {
 std::string defaultClientFolder() {
     std::error_code ignored;
     const auto program = std::filesystem::read_symlink("/proc/self/exe", ignored);
-    return (program.parent_path() / "../../web_client").lexically_normal().string();
+    return clientFolderOf(program);
 }
 
 /// One line an event on stderr: time, level, then key=value.
@@ -321,8 +322,9 @@ void addServeCommand(CLI::App& app, int& exitCode) {
         .add_option("--gpu", settings->render.gpu,
                     "EGL device as `volcast doctor` lists it, or software; none: surfaceless")
         ->envname("VOLCAST_GPU");
-    command.add_option("--client-dir", settings->listen.clientFolder,
-                       "Built web client; none: web_client beside the build's folder");
+    command.add_option(
+        "--client-dir", settings->listen.clientFolder,
+        "Built web client; none: web_client beside the programs' folder, or the build's");
     command.add_option("--tls-cert", settings->listen.tlsCert,
                        "PEM file with the certificate chain: HTTPS and wss, TLS 1.2 and later");
     command.add_option("--tls-key", settings->listen.tlsKey, "PEM file with its private key");
