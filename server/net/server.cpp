@@ -71,6 +71,9 @@ private:
     template <class Layer>
     asio::awaitable<void> serveWebSocket(Layer stream, Request request);
     [[nodiscard]] std::optional<Response> refusal(const Request& request) const;
+    /// Registers it, to be drained; one that came after the signal is drained now.
+    template <class Layer>
+    std::shared_ptr<WebSocket> enter(Layer stream, std::uint64_t& number);
     void onSignal();
     void stopWithin(std::chrono::milliseconds limit);
     void tidyLater();
@@ -147,14 +150,14 @@ void BeastServer::run() {
 }
 
 void BeastServer::onSignal() {
-    spdlog::info("event=draining clients={}", webSockets_.load());
-    draining_ = true;
     signals_.async_wait([](boost::system::error_code error, int signal) {
         if (!error) std::_Exit(128 + signal);
     });
     boost::system::error_code ignored;
     acceptor_.close(ignored);
     const std::lock_guard lock{mutex_};
+    draining_ = true;
+    spdlog::info("event=draining clients={}", webSockets_.load());
     for (const auto& [number, weak] : sockets_) {
         if (const auto socket = weak.lock()) socket->drain();
     }
@@ -220,7 +223,7 @@ asio::awaitable<void> BeastServer::serve(Layer stream) {
     boost::system::error_code unknown;
     const auto peer = beast::get_lowest_layer(stream).socket().remote_endpoint(unknown).address();
     const bool fromLoopback = !unknown && peer.is_loopback();
-    while (!draining_) {
+    while (true) {
         http::request_parser<http::empty_body> parser;
         parser.header_limit(kHeaderLimit);
         parser.body_limit(boost::none);  // No body is read here; uploads have limits of their own.
@@ -248,7 +251,7 @@ asio::awaitable<void> BeastServer::serve(Layer stream) {
             co_return;
         }
         Response response = refused ? std::move(*refused) : answers_.answer(request, fromLoopback);
-        const bool more = response.keep_alive() && !parser.chunked() &&
+        const bool more = !draining_ && response.keep_alive() && !parser.chunked() &&
                           request[http::field::content_length].empty();
         response.keep_alive(more);
         const auto [failed, sent] = co_await http::async_write(stream, response, kAsTuple);
@@ -290,6 +293,10 @@ asio::awaitable<bool> BeastServer::serveUpload(Layer& stream, beast::flat_buffer
 }
 
 std::optional<Response> BeastServer::refusal(const Request& request) const {
+    if (draining_) {  // The connection may be older than the signal.
+        return HttpAnswers::plain(request, http::status::service_unavailable,
+                                  "this server is going down; try again later");
+    }
     const std::string_view target = request.target();
     if (target.substr(0, target.find('?')) != "/v1/ws") {
         return HttpAnswers::plain(request, http::status::not_found, "the WebSocket is at /v1/ws");
@@ -316,16 +323,20 @@ std::optional<Response> BeastServer::refusal(const Request& request) const {
 }
 
 template <class Layer>
-asio::awaitable<void> BeastServer::serveWebSocket(Layer stream, Request request) {
+std::shared_ptr<WebSocket> BeastServer::enter(Layer stream, std::uint64_t& number) {
+    const std::lock_guard lock{mutex_};
     ++webSockets_;
+    number = ++lastNumber_;
+    auto socket = makeWebSocket(std::move(stream), shared_, number);
+    sockets_[number] = socket;
+    if (draining_) socket->drain();
+    return socket;
+}
+
+template <class Layer>
+asio::awaitable<void> BeastServer::serveWebSocket(Layer stream, Request request) {
     std::uint64_t number = 0;
-    std::shared_ptr<WebSocket> socket;
-    {
-        const std::lock_guard lock{mutex_};
-        number = ++lastNumber_;
-        socket = makeWebSocket(std::move(stream), shared_, number);
-        sockets_[number] = socket;
-    }
+    const auto socket = enter(std::move(stream), number);
     spdlog::info("event=connected connection={}", number);
     shared_.metrics.connected();
     co_await socket->serve(request);

@@ -95,5 +95,22 @@ TEST(Drain, NobodyNewIsLetIn) {
     EXPECT_TRUE(server.wait().has_value());
 }
 
+// A browser keeps its connection; the one that does not leave keeps the server there meanwhile.
+TEST(Drain, AConnectionThatIsOlderGetsNoWebSocketAnyMore) {
+    ServerProcess server;
+    ASSERT_TRUE(server.ready()) << server.log();
+    RawSocket deaf{server.port()}, older{server.port()};
+    ASSERT_TRUE(deaf.upgrade());
+    ASSERT_TRUE(older.send("HEAD /healthz HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n"));
+    ASSERT_TRUE(older.readHead().starts_with("HTTP/1.1 200 "));
+    server.signal(SIGTERM);
+    ASSERT_TRUE(eventually([&] { return server.log().find("draining") != std::string::npos; }));
+    EXPECT_THAT(older.upgradeAnswer(), testing::StartsWith("HTTP/1.1 503 "));
+    EXPECT_TRUE(older.readToEnd());
+    const auto ended = server.wait();
+    ASSERT_TRUE(ended.has_value());
+    EXPECT_THAT(ended->err, testing::Not(HasSubstr("connection=2")));
+}
+
 }  // namespace
 }  // namespace volcast::test

@@ -88,13 +88,17 @@ bool RawSocket::fill() {
     return true;
 }
 
-bool RawSocket::upgrade(const std::string& moreHeaders) {
+std::string RawSocket::upgradeAnswer(const std::string& moreHeaders) {
     send(
         "GET /v1/ws HTTP/1.1\r\nHost: 127.0.0.1\r\nUpgrade: websocket\r\n"
         "Connection: Upgrade\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n"
         "Sec-WebSocket-Version: 13\r\nSec-WebSocket-Protocol: volcast.v1\r\n" +
         moreHeaders + "\r\n");
-    return readHead().starts_with("HTTP/1.1 101 ");
+    return readHead();
+}
+
+bool RawSocket::upgrade(const std::string& moreHeaders) {
+    return upgradeAnswer(moreHeaders).starts_with("HTTP/1.1 101 ");
 }
 
 std::string RawSocket::readHead() {

@@ -45,6 +45,8 @@ public:
     bool send(const std::string& bytes) const;
     /// Sends a valid opening handshake and reads the answer; true for 101.
     bool upgrade(const std::string& moreHeaders = "");
+    /// The head of that answer.
+    std::string upgradeAnswer(const std::string& moreHeaders = "");
     /// The answer's head of an HTTP request, up to its blank line; empty where the server closed.
     std::string readHead();
     /// The next frame but the pings that the server measures the way with; nullopt where the server
