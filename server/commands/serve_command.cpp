@@ -174,6 +174,14 @@ void addLimits(CLI::App& command, ServeSettings& settings) {
     command.add_option("--max-clients", settings.listen.maxClients, "WebSockets at once")
         ->check(CLI::Range(1U, 10000U))
         ->capture_default_str();
+    command
+        .add_option_function<std::int64_t>(
+            "--write-patience-s",
+            [&settings](std::int64_t seconds) {
+                settings.listen.writePatience = std::chrono::seconds{seconds};
+            },
+            "So long 64 KiB of what a client is sent may take before it is cut off (default 20)")
+        ->check(CLI::Range(1, 3600));
     command.add_option("--max-views", settings.limits.maxViews, "Views of one client")
         ->check(CLI::Range(1U, 256U))
         ->capture_default_str();

@@ -327,7 +327,8 @@ std::shared_ptr<WebSocket> BeastServer::enter(Layer stream, std::uint64_t& numbe
     const std::lock_guard lock{mutex_};
     ++webSockets_;
     number = ++lastNumber_;
-    auto socket = makeWebSocket(std::move(stream), shared_, number);
+    auto socket = makeWebSocket(std::move(stream), shared_,
+                                {.number = number, .writePatience = settings_.writePatience});
     sockets_[number] = socket;
     if (draining_) socket->drain();
     return socket;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -20,9 +21,10 @@ struct ListenSettings {
     std::uint16_t port = 8080;  ///< 0: any free one.
     std::string clientFolder;   ///< The built web client.
     std::vector<std::string> allowedOrigins;
-    std::string tlsCert, tlsKey;  ///< PEM files; empty: plain HTTP.
-    unsigned maxClients = 64;     ///< WebSockets at once.
-    unsigned threads = 2;         ///< For sockets; encoding has its own.
+    std::string tlsCert, tlsKey;             ///< PEM files; empty: plain HTTP.
+    unsigned maxClients = 64;                ///< WebSockets at once.
+    std::chrono::seconds writePatience{20};  ///< For 64 KiB of what a WebSocket is sent.
+    unsigned threads = 2;                    ///< For sockets; encoding has its own.
     MetricsFor metricsFor = MetricsFor::kThisMachine;
 };
 

@@ -52,6 +52,27 @@ TEST(Limits, AFloodOfConnectionsPasses) {
     EXPECT_TRUE(eventually([&] { return http(server.port(), "/healthz").status == 200; }));
 }
 
+// It takes the upgrade and no picture, though it asks for more: the kernel holds less than one.
+TEST(Limits, AClientThatStopsReadingIsCutOff) {
+    const ServerProcess server{{"--write-patience-s", "1"}};
+    ASSERT_TRUE(server.ready()) << server.log();
+    RawSocket still{server.port()};
+    ASSERT_TRUE(still.upgrade());
+    TestClient other{server.port()};
+    ASSERT_TRUE(other.ok());
+    still.send(rawFrame(kText, R"({"hello":{"major":1,"client":"x","codecs":["CODEC_PNG"]}})"));
+    still.send(rawFrame(kText, R"({"openView":{"view":1,"dataset":"demo:volume","inputSeq":"1",)"
+                               R"("viewport":{"width":1536,"height":1536}}})"));
+    const auto said = [&](const char* event) {
+        still.send(rawFrame(kText, R"({"ack":{"view":1,"sequence":4294967295}})"));
+        return server.log().find(event) != std::string::npos;
+    };
+    EXPECT_TRUE(eventually([&] { return said("event=stuck connection=1"); })) << server.log();
+    EXPECT_TRUE(eventually([&] { return said("event=disconnected connection=1"); }));
+    other.send(ping(7));
+    EXPECT_TRUE(other.waitFor([](const auto& one) { return one.pong().token() == 7; }).has_value());
+}
+
 TEST(Limits, AFloodOfViewsIsRefusedOneByOne) {
     const ServerProcess server{{"--max-views", "2"}};
     ASSERT_TRUE(server.ready()) << server.log();
