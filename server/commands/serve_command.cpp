@@ -170,10 +170,18 @@ int serve(ServeSettings settings) {
     return 0;
 }
 
-void addLimits(CLI::App& command, ServeSettings& settings) {
+void addConnections(CLI::App& command, ServeSettings& settings) {
     command.add_option("--max-clients", settings.listen.maxClients, "WebSockets at once")
         ->check(CLI::Range(1U, 10000U))
         ->capture_default_str();
+    command
+        .add_option_function<unsigned>(
+            "--max-clients-per-address",
+            [&settings](unsigned most) { settings.listen.maxClientsPerAddress = most; },
+            "WebSockets at once of one address (IPv6: of its first 64 bits), this machine "
+            "excepted; "
+            "0: no limit, as behind a proxy on another machine (default half of --max-clients)")
+        ->check(CLI::Range(0U, 10000U));
     command
         .add_option_function<std::int64_t>(
             "--write-patience-s",
@@ -182,6 +190,9 @@ void addLimits(CLI::App& command, ServeSettings& settings) {
             },
             "So long 64 KiB of what a client is sent may take before it is cut off (default 20)")
         ->check(CLI::Range(1, 3600));
+}
+
+void addLimits(CLI::App& command, ServeSettings& settings) {
     command.add_option("--max-views", settings.limits.maxViews, "Views of one client")
         ->check(CLI::Range(1U, 256U))
         ->capture_default_str();
@@ -354,6 +365,7 @@ void addServeCommand(CLI::App& app, int& exitCode) {
         ->capture_default_str();
     addState(command, *settings);
     addUploads(command, *settings);
+    addConnections(command, *settings);
     addLimits(command, *settings);
     addFaults(command, *settings);
     command.callback([settings, &exitCode] { exitCode = serve(*settings); });

@@ -1,5 +1,6 @@
 #include "server/net/server.h"
 
+#include <algorithm>
 #include <atomic>
 #include <csignal>
 #include <cstdlib>
@@ -14,6 +15,7 @@
 #include <spdlog/spdlog.h>
 
 #include "renderer/base/printable.h"
+#include "server/net/client_places.h"
 #include "server/net/http_answers.h"
 #include "server/net/tls.h"
 #include "server/net/upload_body.h"
@@ -51,7 +53,10 @@ public:
           shared_{shared},
           files_{settings_.clientFolder},
           answers_{files_, shared_, settings_.metricsFor},
-          uploads_{shared_, origins_} {}
+          uploads_{shared_, origins_},
+          places_{settings_.maxClients,
+                  settings_.maxClientsPerAddress.value_or(std::max(1U, settings_.maxClients / 2))} {
+    }
 
     Result<void> listen();
     [[nodiscard]] std::string url() const override {
@@ -69,8 +74,10 @@ private:
     asio::awaitable<bool> serveUpload(Layer& stream, beast::flat_buffer& buffer,
                                       http::request_parser<http::empty_body>& head);
     template <class Layer>
-    asio::awaitable<void> serveWebSocket(Layer stream, Request request);
+    asio::awaitable<void> serveWebSocket(Layer stream, Request request, asio::ip::address peer);
     [[nodiscard]] std::optional<Response> refusal(const Request& request) const;
+    /// Takes a place for one of `peer`, to be given back; what to answer where there is none.
+    std::optional<Response> takePlace(const Request& request, const asio::ip::address& peer);
     /// Registers it, to be drained; one that came after the signal is drained now.
     template <class Layer>
     std::shared_ptr<WebSocket> enter(Layer stream, std::uint64_t& number);
@@ -93,9 +100,9 @@ private:
     asio::steady_timer tidy_{control_};
     std::unique_ptr<asio::ssl::context> tls_;  ///< None: plain TCP.
     std::atomic<unsigned> connections_ = 0;
-    std::atomic<unsigned> webSockets_ = 0;
     std::atomic<bool> draining_ = false;
     std::mutex mutex_;
+    ClientPlaces places_;
     std::uint64_t lastNumber_ = 0;
     std::map<std::uint64_t, std::weak_ptr<WebSocket>> sockets_;
 };
@@ -157,11 +164,11 @@ void BeastServer::onSignal() {
     acceptor_.close(ignored);
     const std::lock_guard lock{mutex_};
     draining_ = true;
-    spdlog::info("event=draining clients={}", webSockets_.load());
+    spdlog::info("event=draining clients={}", places_.taken());
     for (const auto& [number, weak] : sockets_) {
         if (const auto socket = weak.lock()) socket->drain();
     }
-    stopWithin(webSockets_ == 0 ? kPlainDrain : kDrainWithin);
+    stopWithin(places_.taken() == 0 ? kPlainDrain : kDrainWithin);
 }
 
 void BeastServer::stopWithin(std::chrono::milliseconds limit) {
@@ -246,8 +253,9 @@ asio::awaitable<void> BeastServer::serve(Layer stream) {
         Request request = parser.release();
         const bool upgrade = websocket::is_upgrade(request);
         auto refused = upgrade ? refusal(request) : std::nullopt;
+        if (upgrade && !refused) refused = takePlace(request, peer);
         if (upgrade && !refused) {
-            co_await serveWebSocket(std::move(stream), std::move(request));
+            co_await serveWebSocket(std::move(stream), std::move(request), peer);
             co_return;
         }
         Response response = refused ? std::move(*refused) : answers_.answer(request, fromLoopback);
@@ -312,20 +320,21 @@ std::optional<Response> BeastServer::refusal(const Request& request) const {
         return HttpAnswers::plain(request, http::status::bad_request,
                                   std::string{"the WebSocket subprotocol must be "} + kSubprotocol);
     }
-    if (webSockets_ >= settings_.maxClients) {
-        spdlog::warn("event=client_refused limit={}", settings_.maxClients);
-        return HttpAnswers::plain(
-            request, http::status::service_unavailable,
-            "this server has " + std::to_string(settings_.maxClients) +
-                " clients, the most that it takes (--max-clients); try again later");
-    }
     return std::nullopt;
+}
+
+std::optional<Response> BeastServer::takePlace(const Request& request,
+                                               const asio::ip::address& peer) {
+    const std::lock_guard lock{mutex_};
+    auto full = places_.take(peer);
+    if (!full) return std::nullopt;
+    spdlog::warn(R"(event=client_refused peer={} reason="{}")", peer.to_string(), *full);
+    return HttpAnswers::plain(request, http::status::service_unavailable, *std::move(full));
 }
 
 template <class Layer>
 std::shared_ptr<WebSocket> BeastServer::enter(Layer stream, std::uint64_t& number) {
     const std::lock_guard lock{mutex_};
-    ++webSockets_;
     number = ++lastNumber_;
     auto socket = makeWebSocket(std::move(stream), shared_,
                                 {.number = number, .writePatience = settings_.writePatience});
@@ -335,18 +344,18 @@ std::shared_ptr<WebSocket> BeastServer::enter(Layer stream, std::uint64_t& numbe
 }
 
 template <class Layer>
-asio::awaitable<void> BeastServer::serveWebSocket(Layer stream, Request request) {
+asio::awaitable<void> BeastServer::serveWebSocket(Layer stream, Request request,
+                                                  asio::ip::address peer) {
     std::uint64_t number = 0;
     const auto socket = enter(std::move(stream), number);
     spdlog::info("event=connected connection={}", number);
     shared_.metrics.connected();
     co_await socket->serve(request);
     shared_.metrics.disconnected();
-    {
-        const std::lock_guard lock{mutex_};
-        sockets_.erase(number);
-    }
-    if (--webSockets_ == 0 && draining_) {
+    const std::lock_guard lock{mutex_};
+    sockets_.erase(number);
+    places_.giveBack(peer);
+    if (places_.taken() == 0 && draining_) {
         asio::post(control_, [this] { stopWithin(kPlainDrain); });
     }
 }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,8 +22,10 @@ struct ListenSettings {
     std::uint16_t port = 8080;  ///< 0: any free one.
     std::string clientFolder;   ///< The built web client.
     std::vector<std::string> allowedOrigins;
-    std::string tlsCert, tlsKey;             ///< PEM files; empty: plain HTTP.
-    unsigned maxClients = 64;                ///< WebSockets at once.
+    std::string tlsCert, tlsKey;  ///< PEM files; empty: plain HTTP.
+    unsigned maxClients = 64;     ///< WebSockets at once.
+    /// Of those, with one address as ClientPlaces counts them; 0: all; none: half of them.
+    std::optional<unsigned> maxClientsPerAddress = {};
     std::chrono::seconds writePatience{20};  ///< For 64 KiB of what a WebSocket is sent.
     unsigned threads = 2;                    ///< For sockets; encoding has its own.
     MetricsFor metricsFor = MetricsFor::kThisMachine;

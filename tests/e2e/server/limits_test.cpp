@@ -1,9 +1,13 @@
 // Floods: of messages, of connections; and clients that do not leave.
+#include <arpa/inet.h>
+#include <array>
 #include <csignal>
 #include <memory>
 #include <vector>
 
 #include <gmock/gmock.h>
+#include <ifaddrs.h>
+#include <net/if.h>
 
 #include "tests/e2e/server/raw_socket.h"
 #include "tests/e2e/server/test_client.h"
@@ -17,6 +21,22 @@ v1::ClientMessage ping(std::uint64_t token) {
     v1::ClientMessage message;
     message.mutable_ping()->set_token(token);
     return message;
+}
+
+/// An IPv4 address of this machine that is not the loopback's; empty where it has none.
+std::string outerAddress() {
+    ifaddrs* all = nullptr;
+    if (::getifaddrs(&all) != 0) return {};
+    std::string found;
+    for (const ifaddrs* one = all; one != nullptr; one = one->ifa_next) {
+        if (one->ifa_addr == nullptr || one->ifa_addr->sa_family != AF_INET) continue;
+        if ((one->ifa_flags & IFF_LOOPBACK) != 0) continue;
+        std::array<char, INET_ADDRSTRLEN> text{};
+        const auto& address = reinterpret_cast<const sockaddr_in&>(*one->ifa_addr);
+        found = ::inet_ntop(AF_INET, &address.sin_addr, text.data(), text.size());
+    }
+    ::freeifaddrs(all);
+    return found;
 }
 
 TEST(Limits, AClientThatSendsTooManyMessagesIsToldAndClosed) {
@@ -35,6 +55,20 @@ TEST(Limits, AClientThatSendsTooManyMessagesIsToldAndClosed) {
     EXPECT_EQ(hasty.socket().closeCode(), 1008);
     calm.send(ping(7));
     EXPECT_TRUE(calm.waitFor([](const auto& one) { return one.pong().token() == 7; }).has_value());
+}
+
+TEST(Limits, OneAddressHasItsShareOfTheClients) {
+    const std::string here = outerAddress();
+    if (here.empty()) GTEST_SKIP() << "this machine has no address but the loopback's";
+    const ServerProcess server{{"--host", here, "--max-clients-per-address", "1"}};
+    ASSERT_TRUE(server.ready()) << server.log();
+    {
+        RawSocket first{server.port(), here}, second{server.port(), here};
+        ASSERT_TRUE(first.upgrade());
+        EXPECT_THAT(second.upgradeAnswer(), testing::StartsWith("HTTP/1.1 503 "));
+        EXPECT_THAT(server.log(), HasSubstr("--max-clients-per-address"));
+    }
+    EXPECT_TRUE(eventually([&] { return RawSocket{server.port(), here}.upgrade(); }));
 }
 
 // Idle connections are cut off after 5 s; until then those above the limit are dropped, and who

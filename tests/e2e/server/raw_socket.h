@@ -31,10 +31,10 @@ std::string rawFrame(unsigned opcode, const std::string& payload, const FrameFor
 /// A close frame of `code` and `reason`.
 std::string closeFrame(unsigned code, const std::string& reason = "");
 
-/// A TCP connection to 127.0.0.1 that writes what it is told; no WebSocket library between.
+/// A TCP connection to this machine that writes what it is told; no WebSocket library between.
 class RawSocket {
 public:
-    explicit RawSocket(std::uint16_t port);
+    explicit RawSocket(std::uint16_t port, const std::string& address = "127.0.0.1");
     RawSocket(const RawSocket&) = delete;
     RawSocket& operator=(const RawSocket&) = delete;
     RawSocket(RawSocket&&) = delete;
