@@ -24,8 +24,8 @@ constexpr const char* kFooter = R"(Kinds of clients:
   orbit   turns the camera          map     changes the transfer function
   model   changes the ray model     join    comes, stays half a second, leaves, comes again
   idle    opens a view and waits    slow    orbits and reads --slow-kb a second
-  shaped  orbits behind a link of --link-mbit and --link-delay (made by the client: it reads and
-          sends late; packets are not lost)
+  shaped  orbits behind a link of --link-mbit and --link-delay (made by the client: bytes
+          wait, those of pings too; packets are not lost)
 
 Examples:
   volcast load --clients orbit=4 --duration 10
@@ -36,7 +36,9 @@ Examples:
 
 "input to frame" runs from an input to the first frame of it or a newer one; "age" from an input to
 the arrival of the frame that shows it, in every client of the view. "overtaken" inputs were never
-shown to a client of the view, but a newer one was. Quantiles are at most 1.6 % too high.
+shown to a client of the view, but a newer one was. "unanswered" inputs had no frame when the run or
+their connection ended: limits of latency count them with the time until then, and limits of age
+the time that a picture has stood still by then while newer inputs were sent. Quantiles are at most 1.6 % too high.
 
 Exit code: 0 done and all thresholds kept, 1 a threshold was not kept or the run failed, 2 wrong
 options.)";

@@ -120,7 +120,7 @@ void addLinks(CLI::App& command, load::LoadSettings& settings) {
                     std::chrono::milliseconds{static_cast<std::int64_t>(std::round(ms / 2))};
             },
             "Milliseconds that the link of `shaped` adds to a round trip (default 50)")
-        ->check(within(0, 60'000));
+        ->check(within(0, 5000));
 }
 
 void addThresholds(CLI::App& command, load::Thresholds& limits) {

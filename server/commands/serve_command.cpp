@@ -13,6 +13,7 @@
 
 #include "renderer/base/printable.h"
 #include "server/commands/cache_folder.h"
+#include "server/commands/client_folder.h"
 #include "server/session/thumbnails.h"
 #include "server/session/views.h"
 #include "server/settings.h"
@@ -28,7 +29,7 @@ namespace {
 std::string defaultClientFolder() {
     std::error_code ignored;
     const auto program = std::filesystem::read_symlink("/proc/self/exe", ignored);
-    return (program.parent_path() / "../../web_client").lexically_normal().string();
+    return clientFolderOf(program);
 }
 
 /// One line an event on stderr: time, level, then key=value.
@@ -169,10 +170,29 @@ int serve(ServeSettings settings) {
     return 0;
 }
 
-void addLimits(CLI::App& command, ServeSettings& settings) {
+void addConnections(CLI::App& command, ServeSettings& settings) {
     command.add_option("--max-clients", settings.listen.maxClients, "WebSockets at once")
         ->check(CLI::Range(1U, 10000U))
         ->capture_default_str();
+    command
+        .add_option_function<unsigned>(
+            "--max-clients-per-address",
+            [&settings](unsigned most) { settings.listen.maxClientsPerAddress = most; },
+            "WebSockets at once of one address (IPv6: of its first 64 bits), this machine "
+            "excepted; "
+            "0: no limit, as behind a proxy on another machine (default half of --max-clients)")
+        ->check(CLI::Range(0U, 10000U));
+    command
+        .add_option_function<std::int64_t>(
+            "--write-patience-s",
+            [&settings](std::int64_t seconds) {
+                settings.listen.writePatience = std::chrono::seconds{seconds};
+            },
+            "So long 64 KiB of what a client is sent may take before it is cut off (default 20)")
+        ->check(CLI::Range(1, 3600));
+}
+
+void addLimits(CLI::App& command, ServeSettings& settings) {
     command.add_option("--max-views", settings.limits.maxViews, "Views of one client")
         ->check(CLI::Range(1U, 256U))
         ->capture_default_str();
@@ -321,8 +341,9 @@ void addServeCommand(CLI::App& app, int& exitCode) {
         .add_option("--gpu", settings->render.gpu,
                     "EGL device as `volcast doctor` lists it, or software; none: surfaceless")
         ->envname("VOLCAST_GPU");
-    command.add_option("--client-dir", settings->listen.clientFolder,
-                       "Built web client; none: web_client beside the build's folder");
+    command.add_option(
+        "--client-dir", settings->listen.clientFolder,
+        "Built web client; none: web_client beside the programs' folder, or the build's");
     command.add_option("--tls-cert", settings->listen.tlsCert,
                        "PEM file with the certificate chain: HTTPS and wss, TLS 1.2 and later");
     command.add_option("--tls-key", settings->listen.tlsKey, "PEM file with its private key");
@@ -344,6 +365,7 @@ void addServeCommand(CLI::App& app, int& exitCode) {
         ->capture_default_str();
     addState(command, *settings);
     addUploads(command, *settings);
+    addConnections(command, *settings);
     addLimits(command, *settings);
     addFaults(command, *settings);
     command.callback([settings, &exitCode] { exitCode = serve(*settings); });

@@ -145,6 +145,7 @@ void Fleet::gather() {
     const std::chrono::duration<double> measured = Clock::now() - measuredFrom_;
     outcome_.seconds = stage_.measuring ? measured.count() : 0;
     for (std::size_t i = 0; i < clients_.size(); ++i) {
+        clients_[i]->countMissing();
         const std::uint64_t frames = clients_[i]->frames();
         statsOf_[i]->framesByClient.push_back(frames);
         if (!moves(kinds_[i % views_.size()])) continue;

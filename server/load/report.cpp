@@ -66,6 +66,9 @@ json::object kindJson(const Stats& stats, const Outcome& outcome) {
     const Rates rates = ratesOf(stats.framesByClient, outcome);
     json::object errors;
     for (const auto& [what, count] : stats.errors) errors[what] = count;
+    json::value scale, quality;  // null where no frame says
+    if (stats.leastScale) scale = *stats.leastScale;
+    if (stats.leastQuality) quality = *stats.leastQuality;
     return {{"clients", stats.clients},
             {"connects", stats.connects},
             {"failed_connects", stats.failedConnects},
@@ -74,8 +77,13 @@ json::object kindJson(const Stats& stats, const Outcome& outcome) {
             {"bytes", stats.bytes},
             {"frames_per_s_slowest", rates.slowest},
             {"frames_per_s_fastest", rates.fastest},
+            {"scale_least", std::move(scale)},
+            {"quality_least", std::move(quality)},
             {"inputs", stats.inputs},
             {"overtaken", stats.overtaken},
+            {"unanswered", stats.unanswered.count()},
+            {"unanswered_ms", quantiles(stats.unanswered)},
+            {"unseen_ms", quantiles(stats.unseen)},
             {"input_to_frame_ms", quantiles(stats.inputToFrame)},
             {"age_ms", quantiles(stats.age)},
             {"first_frame_ms", quantiles(stats.firstFrame)},
@@ -121,6 +129,20 @@ std::string rowOf(const std::string& kind, const Stats& stats, const Outcome& ou
                   static_cast<unsigned long long>(errorsOf(stats)));
 }
 
+std::string paceText(const Stats& stats) {
+    std::string text;
+    if (stats.leastScale) text += format("; scale at least %.2f", *stats.leastScale);
+    if (stats.leastQuality) text += format("; JPEG quality at least %u", *stats.leastQuality);
+    return text;
+}
+
+std::string missingText(const Stats& stats) {
+    if (stats.unanswered.count() == 0) return {};
+    return format("; %llu inputs unanswered, waiting %.0f ms (p50), %.0f ms (max)",
+                  static_cast<unsigned long long>(stats.unanswered.count()),
+                  stats.unanswered.quantileMs(0.5), stats.unanswered.maxMs());
+}
+
 std::string useText(const char* when, const TreeUse& use) {
     return format(
         "  %-6s %6.0f MB resident, %6.0f with workers; %3u threads, %3u with workers; %4u "
@@ -129,26 +151,49 @@ std::string useText(const char* when, const TreeUse& use) {
         use.rootThreads, use.treeThreads, use.rootDescriptors, use.treeDescriptors, use.processes);
 }
 
+/// Durations, and what was still open, with its time so far: no quantile is below that of either.
+struct Waits {
+    Histogram done, all;
+
+    void merge(const Histogram& ended, const Histogram& open) {
+        done.merge(ended);
+        all.merge(ended);
+        all.merge(open);
+    }
+    [[nodiscard]] double quantileMs(double share) const {
+        return std::max(done.quantileMs(share), all.quantileMs(share));
+    }
+    [[nodiscard]] std::string open() const {
+        const auto count = static_cast<unsigned long long>(all.count() - done.count());
+        return count == 0 ? "" : format(", %llu of them still open", count);
+    }
+};
+
 }  // namespace
 
 std::vector<std::string> violations(const Outcome& outcome, const Thresholds& thresholds) {
-    Histogram inputToFrame, age;
+    Waits inputToFrame, age;
     std::uint64_t errors = 0;
     for (const auto& [kind, stats] : outcome.kinds) {
-        inputToFrame.merge(stats.inputToFrame);
-        age.merge(stats.age);
+        inputToFrame.merge(stats.inputToFrame, stats.unanswered);
+        age.merge(stats.age, stats.unseen);
         errors += errorsOf(stats);
     }
     std::vector<std::string> all;
-    const auto atMost = [&all](const char* what, double value, const std::optional<double>& limit) {
+    const auto atMost = [&all](const char* what, double value, const std::optional<double>& limit,
+                               const std::string& more = {}) {
         if (limit && value > *limit)
-            all.push_back(format("%s: %.4g, more than %.4g", what, value, *limit));
+            all.push_back(format("%s: %.4g, more than %.4g%s", what, value, *limit, more.c_str()));
     };
-    atMost("input to frame p50 ms", inputToFrame.quantileMs(0.50), thresholds.maxP50Ms);
-    atMost("input to frame p95 ms", inputToFrame.quantileMs(0.95), thresholds.maxP95Ms);
-    atMost("input to frame p99 ms", inputToFrame.quantileMs(0.99), thresholds.maxP99Ms);
-    atMost("frame age p99 ms", age.quantileMs(0.99), thresholds.maxAgeP99Ms);
-    atMost("frame age max ms", age.maxMs(), thresholds.maxAgeMs);
+    const auto wait = [&atMost](const char* what, const Waits& waits, double share,
+                                const std::optional<double>& limit) {
+        atMost(what, waits.quantileMs(share), limit, waits.open());
+    };
+    wait("input to frame p50 ms", inputToFrame, 0.50, thresholds.maxP50Ms);
+    wait("input to frame p95 ms", inputToFrame, 0.95, thresholds.maxP95Ms);
+    wait("input to frame p99 ms", inputToFrame, 0.99, thresholds.maxP99Ms);
+    wait("frame age p99 ms", age, 0.99, thresholds.maxAgeP99Ms);
+    wait("frame age max ms", age, 1, thresholds.maxAgeMs);
     atMost("errors", static_cast<double>(errors), thresholds.maxErrors);
     atMost("server MB", static_cast<double>(outcome.most.treeBytes) / kMb, thresholds.maxServerMb);
     atMost("server cores", perSecond(outcome.after.rootCpuS - outcome.before.rootCpuS, outcome),
@@ -161,9 +206,9 @@ std::vector<std::string> violations(const Outcome& outcome, const Thresholds& th
            thresholds.maxGrowthThreads);
     // What was not seen at all keeps no limit.
     const bool wantsLatency = thresholds.maxP50Ms || thresholds.maxP95Ms || thresholds.maxP99Ms;
-    if (wantsLatency && inputToFrame.count() == 0)
+    if (wantsLatency && inputToFrame.done.count() == 0)
         all.emplace_back("input to frame: no frame answered an input");
-    if ((thresholds.maxAgeP99Ms || thresholds.maxAgeMs) && age.count() == 0)
+    if ((thresholds.maxAgeP99Ms || thresholds.maxAgeMs) && age.done.count() == 0)
         all.emplace_back("frame age: no frame showed a new input");
     const auto atLeast = [&all](const char* what, double value,
                                 const std::optional<double>& limit) {
@@ -202,6 +247,7 @@ std::string reportText(const LoadSettings& settings, const Outcome& outcome) {
             static_cast<unsigned long long>(stats.failedConnects),
             static_cast<unsigned long long>(stats.lostConnections),
             stats.firstFrame.quantileMs(0.5), stats.firstFrame.maxMs());
+        text << paceText(stats) << missingText(stats);
         for (const auto& [what, count] : stats.errors) {
             text << "\n  " << count << " x " << what;
         }

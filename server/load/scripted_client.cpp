@@ -32,9 +32,8 @@ net::LinkShape ScriptedClient::shape() const {
 void ScriptedClient::start() {
     ++connection_;
     greeted_ = false;
-    startedAt_ = Clock::now();
+    startedAt_ = newAt_ = Clock::now();
     shownSeq_ = 0;
-    unanswered_.clear();
     script_.reset();
     socket_ = stage_.loop.connect(
         stage_.settings.url, shape(),
@@ -149,6 +148,7 @@ void ScriptedClient::frame(std::span<const std::byte> bytes) {
     settled_ = true;
     if (first) stats_.firstFrame.add(msSince(startedAt_));
     measure(frame->header.input_seq(), bytes.size());
+    if (stage_.measuring && frame->header.has_pace()) pace(frame->header);
     if (kind_ != Kind::kJoin || !first) return;
     stage_.loop.at(Clock::now() + kStay, [this, mine = connection_] {
         if (greeted_ && mine == connection_) socket_->close();
@@ -164,11 +164,34 @@ void ScriptedClient::measure(std::uint64_t inputSeq, std::size_t bytes) {
     if (inputSeq <= shownSeq_) return;  // The same state again, as a better picture.
     if (stage_.measuring && shownSeq_ != 0) stats_.overtaken += inputSeq - shownSeq_ - 1;
     shownSeq_ = inputSeq;
+    newAt_ = Clock::now();
     const auto sent = view_.sentAt.find(inputSeq);
     if (stage_.measuring && sent != view_.sentAt.end()) stats_.age.add(msSince(sent->second));
     while (!unanswered_.empty() && unanswered_.front().inputSeq <= inputSeq) {
         if (stage_.measuring) stats_.inputToFrame.add(msSince(unanswered_.front().at));
         unanswered_.pop_front();
+    }
+}
+
+void ScriptedClient::pace(const v1::FrameHeader& header) {
+    const double scale = header.pace().scale();
+    stats_.leastScale = std::min(stats_.leastScale.value_or(scale), scale);
+    if (header.codec() != v1::CODEC_JPEG) return;
+    const std::uint32_t quality = header.pace().quality();
+    stats_.leastQuality = std::min(stats_.leastQuality.value_or(quality), quality);
+}
+
+void ScriptedClient::countMissing() {
+    const auto missing = std::exchange(unanswered_, {});
+    const auto shown = std::exchange(shownSeq_, 0);
+    if (!stage_.measuring) return;
+    for (const Sent& one : missing) stats_.unanswered.add(msSince(one.at));
+    if (shown == 0 && missing.empty()) return;
+    // A newer state may overtake those that wait, but a picture is as old as it has stood still.
+    const double still = msSince(newAt_);
+    const auto& sent = view_.sentAt;
+    for (auto one = sent.upper_bound(shown); one != sent.end(); ++one) {
+        stats_.unseen.add(std::min(still, msSince(one->second)));
     }
 }
 
@@ -184,6 +207,7 @@ void ScriptedClient::refused(const v1::Error& error) {
 void ScriptedClient::closed(const std::string& why) {
     const bool wasOpen = std::exchange(greeted_, false);
     socket_.reset();
+    countMissing();
     if (!why.empty()) {
         settled_ = true;
         ++(wasOpen ? stats_.lostConnections : stats_.failedConnects);

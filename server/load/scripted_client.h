@@ -38,6 +38,8 @@ public:
     ~ScriptedClient() = default;
 
     void start();
+    /// Counts what has not come, with the time that it has taken so far.
+    void countMissing();
     [[nodiscard]] std::uint64_t frames() const noexcept { return frames_; }
     /// It has seen a frame, or why it will not.
     [[nodiscard]] bool settled() const noexcept { return settled_; }
@@ -52,6 +54,7 @@ private:
     void refused(const v1::Error& error);
     void closed(const std::string& why);
     void measure(std::uint64_t inputSeq, std::size_t bytes);
+    void pace(const v1::FrameHeader& header);
     void input(std::uint64_t connection);
     void ack(std::uint32_t view, std::uint32_t sequence);
     void ackBlindly(std::uint64_t connection);
@@ -70,6 +73,7 @@ private:
     bool sharing_ = false;
     bool settled_ = false;
     Clock::time_point startedAt_{};
+    Clock::time_point newAt_{};  ///< When it last saw a new state.
     v1::Welcome welcome_;
     std::map<std::string, v1::DatasetKind> datasets_;
     std::optional<Script> script_;

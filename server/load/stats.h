@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,11 +20,17 @@ struct Stats {
     std::uint64_t lostConnections = 0;
     std::uint64_t frames = 0;
     std::uint64_t bytes = 0;  ///< Of frames, headers included.
+    // The smallest and poorest frames, in what the server paces by; none where none says.
+    std::optional<double> leastScale = {};
+    std::optional<std::uint32_t> leastQuality = {};  ///< Of JPEG.
     std::uint64_t inputs = 0;
     std::uint64_t overtaken = 0;  ///< Inputs of the view whose state never came, but a newer one.
     Histogram inputToFrame;       ///< Each input, to the first frame of it or a newer one.
     Histogram age;                ///< Each new state, from its input to this client.
-    Histogram firstFrame;         ///< From connecting.
+    // What came neither until the connection ended nor until the run did: the time so far.
+    Histogram unanswered;  ///< As inputToFrame.
+    Histogram unseen;      ///< As age: at most since this client last saw a new state.
+    Histogram firstFrame;  ///< From connecting.
     std::map<std::string, std::uint64_t> errors;
     std::vector<std::uint64_t> framesByClient;
 };

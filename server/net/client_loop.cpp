@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "server/net/beast.h"
+#include "server/net/shaped_link.h"
 
 namespace volcast::net {
 
@@ -14,30 +15,24 @@ namespace {
 using Clock = ClientLoop::Clock;
 
 constexpr std::chrono::seconds kConnectWithin{10};
-constexpr std::chrono::milliseconds kReadStep{20};  ///< A throttled link takes so much at once.
-constexpr std::size_t kLeastRead = 512;
 constexpr std::size_t kMaxMessage = std::size_t{1} << 28U;
 
-/// One connection: reads at the link's rate, hands over and sends after its delay.
+/// One connection, behind a link where it shall have one.
 template <class Layer>
 class Socket final : public ClientSocket, public std::enable_shared_from_this<Socket<Layer>> {
 public:
     template <class... Tls>
     Socket(ClientLoop& loop, Strand strand, LinkShape shape, ClientEvents events, Tls&... tls)
-        : loop_{loop},
-          socket_{Stream{strand}, tls...},
-          timer_{strand},
-          shape_{shape},
-          events_{std::move(events)} {}
+        : loop_{loop}, socket_{Stream{strand}, tls...}, shape_{shape}, events_{std::move(events)} {}
 
     void start(WsUrl url) {
         asio::co_spawn(socket_.get_executor(), serve(this->shared_from_this(), std::move(url)),
                        asio::detached);
     }
     void send(std::string bytes) override {
-        if (shape_.delay.count() == 0) return queue(std::move(bytes));
-        loop_.at(Clock::now() + shape_.delay,
-                 [self = this->shared_from_this(), bytes] { self->queue(bytes); });
+        if (leaving_) return;
+        waiting_.push_back(std::move(bytes));
+        flush();
     }
     void close() override {
         if (std::exchange(leaving_, true)) return;
@@ -55,7 +50,7 @@ private:
             why = co_await readAll();
         }
         open_ = false;
-        tell([self, why] { self->events_.closed(self->leaving_ ? "" : why); });
+        loop_.at(Clock::now(), [self, why] { self->events_.closed(self->leaving_ ? "" : why); });
     }
 
     asio::awaitable<std::string> open(const WsUrl& url) {
@@ -64,16 +59,11 @@ private:
         const auto [unknown, found] =
             co_await resolver.async_resolve(url.host, std::to_string(url.port), kAsTuple);
         if (unknown) co_return url.host + ": " + unknown.message();
-        boost::system::error_code ignored;
-        const Tcp::endpoint endpoint = *found.begin();
-        stream.socket().open(endpoint.protocol(), ignored);
-        if (shape_.bytesPerSecond > 0) {
-            // Else the kernel would take what the link has not carried yet.
-            stream.socket().set_option(asio::socket_base::receive_buffer_size{4096}, ignored);
-        }
         stream.expires_after(kConnectWithin);
-        const auto [refused] = co_await stream.async_connect(endpoint, kAsTuple);
-        if (refused) co_return "cannot connect: " + refused.message();
+        if (const auto refused = co_await connect(*found.begin())) {
+            co_return "cannot connect: " + refused.message();
+        }
+        boost::system::error_code ignored;
         stream.socket().set_option(Tcp::no_delay{true}, ignored);
         if constexpr (std::is_same_v<Layer, TlsStream>) {
             auto& tls = socket_.next_layer();
@@ -102,10 +92,26 @@ private:
         co_return "";
     }
 
+    asio::awaitable<boost::system::error_code> connect(Tcp::endpoint endpoint) {
+        Stream& stream = beast::get_lowest_layer(socket_);
+        if (shape_.bytesPerSecond > 0 || shape_.delay.count() > 0) {
+            Stream server{stream.get_executor()};
+            boost::system::error_code ignored;
+            server.socket().open(endpoint.protocol(), ignored);
+            keepLittle(server.socket(), shape_);
+            server.expires_after(kConnectWithin);
+            const auto [refused] = co_await server.async_connect(endpoint, kAsTuple);
+            if (refused) co_return refused;
+            endpoint = shapeLink(server.release_socket(), shape_);
+        }
+        const auto [refused] = co_await stream.async_connect(endpoint, kAsTuple);
+        co_return refused;
+    }
+
     asio::awaitable<std::string> readAll() {
         beast::flat_buffer buffer;
         while (true) {
-            const boost::system::error_code error = co_await read(buffer);
+            const auto [error, bytes] = co_await socket_.async_read(buffer, kAsTuple);
             if (error == websocket::error::closed) {
                 co_return "closed by the server with code " +
                     std::to_string(socket_.reason().code) + " " + socket_.reason().reason.c_str();
@@ -113,46 +119,11 @@ private:
             if (error) co_return "connection lost: " + error.message();
             const auto data = buffer.cdata();
             const auto* begin = static_cast<const std::byte*>(data.data());
-            if (shape_.delay.count() == 0) {
-                if (!leaving_) events_.message({begin, data.size()});
-            } else {
-                tell([self = this->shared_from_this(),
-                      copy = std::vector<std::byte>{begin, begin + data.size()}] {
-                    if (!self->leaving_) self->events_.message(copy);
-                });
-            }
+            if (!leaving_) events_.message({begin, data.size()});
             buffer.consume(buffer.size());
         }
     }
 
-    asio::awaitable<boost::system::error_code> read(beast::flat_buffer& buffer) {
-        if (shape_.bytesPerSecond <= 0) {
-            const auto [error, bytes] = co_await socket_.async_read(buffer, kAsTuple);
-            co_return error;
-        }
-        const std::chrono::duration<double> step = kReadStep;
-        const auto most = static_cast<std::size_t>(shape_.bytesPerSecond * step.count());
-        do {
-            const auto [error, bytes] =
-                co_await socket_.async_read_some(buffer, std::max(most, kLeastRead), kAsTuple);
-            if (error) co_return error;
-            const std::chrono::duration<double> takes{static_cast<double>(bytes) /
-                                                      shape_.bytesPerSecond};
-            free_ =
-                std::max(free_, Clock::now()) + std::chrono::duration_cast<Clock::duration>(takes);
-            timer_.expires_at(free_);
-            co_await timer_.async_wait(kAsTuple);
-        } while (!socket_.is_message_done());
-        co_return boost::system::error_code{};
-    }
-
-    /// After the delay, in order.
-    void tell(std::function<void()> act) { loop_.at(Clock::now() + shape_.delay, std::move(act)); }
-    void queue(std::string bytes) {
-        if (leaving_) return;
-        waiting_.push_back(std::move(bytes));
-        flush();
-    }
     void flush() {
         if (!open_ || writing_ || waiting_.empty()) return;
         writing_ = true;
@@ -176,11 +147,9 @@ private:
 
     ClientLoop& loop_;
     websocket::stream<Layer> socket_;
-    asio::steady_timer timer_;
     LinkShape shape_;
     ClientEvents events_;
     std::deque<std::string> waiting_;
-    Clock::time_point free_{};  ///< When the throttled link has carried what was read.
     bool open_ = false;
     bool writing_ = false;
     bool leaving_ = false;

@@ -28,7 +28,7 @@ Result<WsUrl> parseWsUrl(const std::string& text);
 /// A link that is worse than the loopback, as far as its far end can make it so.
 struct LinkShape {
     double bytesPerSecond = 0;           ///< Of what is read; 0: as fast as it comes.
-    std::chrono::milliseconds delay{0};  ///< Added one way, to each message in each direction.
+    std::chrono::milliseconds delay{0};  ///< Added one way, to all in each direction.
 };
 
 /// What a client hears of its socket; called on the loop's thread.
@@ -47,7 +47,7 @@ public:
     ClientSocket& operator=(const ClientSocket&) = delete;
     ClientSocket(ClientSocket&&) = delete;
     ClientSocket& operator=(ClientSocket&&) = delete;
-    /// One binary message, after the link's delay.
+    /// One binary message.
     virtual void send(std::string bytes) = 0;
     virtual void close() = 0;
 

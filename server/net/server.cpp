@@ -1,5 +1,6 @@
 #include "server/net/server.h"
 
+#include <algorithm>
 #include <atomic>
 #include <csignal>
 #include <cstdlib>
@@ -14,6 +15,7 @@
 #include <spdlog/spdlog.h>
 
 #include "renderer/base/printable.h"
+#include "server/net/client_places.h"
 #include "server/net/http_answers.h"
 #include "server/net/tls.h"
 #include "server/net/upload_body.h"
@@ -51,7 +53,10 @@ public:
           shared_{shared},
           files_{settings_.clientFolder},
           answers_{files_, shared_, settings_.metricsFor},
-          uploads_{shared_, origins_} {}
+          uploads_{shared_, origins_},
+          places_{settings_.maxClients,
+                  settings_.maxClientsPerAddress.value_or(std::max(1U, settings_.maxClients / 2))} {
+    }
 
     Result<void> listen();
     [[nodiscard]] std::string url() const override {
@@ -69,8 +74,13 @@ private:
     asio::awaitable<bool> serveUpload(Layer& stream, beast::flat_buffer& buffer,
                                       http::request_parser<http::empty_body>& head);
     template <class Layer>
-    asio::awaitable<void> serveWebSocket(Layer stream, Request request);
+    asio::awaitable<void> serveWebSocket(Layer stream, Request request, asio::ip::address peer);
     [[nodiscard]] std::optional<Response> refusal(const Request& request) const;
+    /// Takes a place for one of `peer`, to be given back; what to answer where there is none.
+    std::optional<Response> takePlace(const Request& request, const asio::ip::address& peer);
+    /// Registers it, to be drained; one that came after the signal is drained now.
+    template <class Layer>
+    std::shared_ptr<WebSocket> enter(Layer stream, std::uint64_t& number);
     void onSignal();
     void stopWithin(std::chrono::milliseconds limit);
     void tidyLater();
@@ -90,9 +100,9 @@ private:
     asio::steady_timer tidy_{control_};
     std::unique_ptr<asio::ssl::context> tls_;  ///< None: plain TCP.
     std::atomic<unsigned> connections_ = 0;
-    std::atomic<unsigned> webSockets_ = 0;
     std::atomic<bool> draining_ = false;
     std::mutex mutex_;
+    ClientPlaces places_;
     std::uint64_t lastNumber_ = 0;
     std::map<std::uint64_t, std::weak_ptr<WebSocket>> sockets_;
 };
@@ -147,18 +157,18 @@ void BeastServer::run() {
 }
 
 void BeastServer::onSignal() {
-    spdlog::info("event=draining clients={}", webSockets_.load());
-    draining_ = true;
     signals_.async_wait([](boost::system::error_code error, int signal) {
         if (!error) std::_Exit(128 + signal);
     });
     boost::system::error_code ignored;
     acceptor_.close(ignored);
     const std::lock_guard lock{mutex_};
+    draining_ = true;
+    spdlog::info("event=draining clients={}", places_.taken());
     for (const auto& [number, weak] : sockets_) {
         if (const auto socket = weak.lock()) socket->drain();
     }
-    stopWithin(webSockets_ == 0 ? kPlainDrain : kDrainWithin);
+    stopWithin(places_.taken() == 0 ? kPlainDrain : kDrainWithin);
 }
 
 void BeastServer::stopWithin(std::chrono::milliseconds limit) {
@@ -220,7 +230,7 @@ asio::awaitable<void> BeastServer::serve(Layer stream) {
     boost::system::error_code unknown;
     const auto peer = beast::get_lowest_layer(stream).socket().remote_endpoint(unknown).address();
     const bool fromLoopback = !unknown && peer.is_loopback();
-    while (!draining_) {
+    while (true) {
         http::request_parser<http::empty_body> parser;
         parser.header_limit(kHeaderLimit);
         parser.body_limit(boost::none);  // No body is read here; uploads have limits of their own.
@@ -243,12 +253,13 @@ asio::awaitable<void> BeastServer::serve(Layer stream) {
         Request request = parser.release();
         const bool upgrade = websocket::is_upgrade(request);
         auto refused = upgrade ? refusal(request) : std::nullopt;
+        if (upgrade && !refused) refused = takePlace(request, peer);
         if (upgrade && !refused) {
-            co_await serveWebSocket(std::move(stream), std::move(request));
+            co_await serveWebSocket(std::move(stream), std::move(request), peer);
             co_return;
         }
         Response response = refused ? std::move(*refused) : answers_.answer(request, fromLoopback);
-        const bool more = response.keep_alive() && !parser.chunked() &&
+        const bool more = !draining_ && response.keep_alive() && !parser.chunked() &&
                           request[http::field::content_length].empty();
         response.keep_alive(more);
         const auto [failed, sent] = co_await http::async_write(stream, response, kAsTuple);
@@ -290,6 +301,10 @@ asio::awaitable<bool> BeastServer::serveUpload(Layer& stream, beast::flat_buffer
 }
 
 std::optional<Response> BeastServer::refusal(const Request& request) const {
+    if (draining_) {  // The connection may be older than the signal.
+        return HttpAnswers::plain(request, http::status::service_unavailable,
+                                  "this server is going down; try again later");
+    }
     const std::string_view target = request.target();
     if (target.substr(0, target.find('?')) != "/v1/ws") {
         return HttpAnswers::plain(request, http::status::not_found, "the WebSocket is at /v1/ws");
@@ -305,36 +320,42 @@ std::optional<Response> BeastServer::refusal(const Request& request) const {
         return HttpAnswers::plain(request, http::status::bad_request,
                                   std::string{"the WebSocket subprotocol must be "} + kSubprotocol);
     }
-    if (webSockets_ >= settings_.maxClients) {
-        spdlog::warn("event=client_refused limit={}", settings_.maxClients);
-        return HttpAnswers::plain(
-            request, http::status::service_unavailable,
-            "this server has " + std::to_string(settings_.maxClients) +
-                " clients, the most that it takes (--max-clients); try again later");
-    }
     return std::nullopt;
 }
 
+std::optional<Response> BeastServer::takePlace(const Request& request,
+                                               const asio::ip::address& peer) {
+    const std::lock_guard lock{mutex_};
+    auto full = places_.take(peer);
+    if (!full) return std::nullopt;
+    spdlog::warn(R"(event=client_refused peer={} reason="{}")", peer.to_string(), *full);
+    return HttpAnswers::plain(request, http::status::service_unavailable, *std::move(full));
+}
+
 template <class Layer>
-asio::awaitable<void> BeastServer::serveWebSocket(Layer stream, Request request) {
-    ++webSockets_;
+std::shared_ptr<WebSocket> BeastServer::enter(Layer stream, std::uint64_t& number) {
+    const std::lock_guard lock{mutex_};
+    number = ++lastNumber_;
+    auto socket = makeWebSocket(std::move(stream), shared_,
+                                {.number = number, .writePatience = settings_.writePatience});
+    sockets_[number] = socket;
+    if (draining_) socket->drain();
+    return socket;
+}
+
+template <class Layer>
+asio::awaitable<void> BeastServer::serveWebSocket(Layer stream, Request request,
+                                                  asio::ip::address peer) {
     std::uint64_t number = 0;
-    std::shared_ptr<WebSocket> socket;
-    {
-        const std::lock_guard lock{mutex_};
-        number = ++lastNumber_;
-        socket = makeWebSocket(std::move(stream), shared_, number);
-        sockets_[number] = socket;
-    }
+    const auto socket = enter(std::move(stream), number);
     spdlog::info("event=connected connection={}", number);
     shared_.metrics.connected();
     co_await socket->serve(request);
     shared_.metrics.disconnected();
-    {
-        const std::lock_guard lock{mutex_};
-        sockets_.erase(number);
-    }
-    if (--webSockets_ == 0 && draining_) {
+    const std::lock_guard lock{mutex_};
+    sockets_.erase(number);
+    places_.giveBack(peer);
+    if (places_.taken() == 0 && draining_) {
         asio::post(control_, [this] { stopWithin(kPlainDrain); });
     }
 }

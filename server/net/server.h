@@ -1,8 +1,10 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,7 +24,10 @@ struct ListenSettings {
     std::vector<std::string> allowedOrigins;
     std::string tlsCert, tlsKey;  ///< PEM files; empty: plain HTTP.
     unsigned maxClients = 64;     ///< WebSockets at once.
-    unsigned threads = 2;         ///< For sockets; encoding has its own.
+    /// Of those, with one address as ClientPlaces counts them; 0: all; none: half of them.
+    std::optional<unsigned> maxClientsPerAddress = {};
+    std::chrono::seconds writePatience{20};  ///< For 64 KiB of what a WebSocket is sent.
+    unsigned threads = 2;                    ///< For sockets; encoding has its own.
     MetricsFor metricsFor = MetricsFor::kThisMachine;
 };
 

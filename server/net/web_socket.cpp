@@ -21,7 +21,6 @@ using session::Clock;
 
 constexpr std::chrono::seconds kHandshake{30};
 constexpr std::chrono::seconds kIdle{60};  ///< Pinged at half of it.
-constexpr std::chrono::seconds kStuckWrite{20};
 constexpr std::chrono::seconds kPingEach{5};
 constexpr std::chrono::seconds kCloseWithin{3};
 const session::Closing kGoingDown{.code = 1012, .reason = "the server is going down"};
@@ -40,7 +39,7 @@ void setSocketOptions(Stream& stream) {
 template <class Layer>
 class SocketOver final : public WebSocket, public std::enable_shared_from_this<SocketOver<Layer>> {
 public:
-    SocketOver(Layer stream, session::Shared& shared, std::uint64_t number);
+    SocketOver(Layer stream, session::Shared& shared, const WebSocketDesc& desc);
     asio::awaitable<void> serve(const Request& request) override;
     void drain() override;
     void abandon() override { session_.reset(); }
@@ -60,6 +59,7 @@ private:
     websocket::stream<Layer> socket_;
     session::Shared& shared_;
     const std::uint64_t number_;
+    const std::chrono::seconds writePatience_;
     asio::steady_timer wake_;   ///< The writer sleeps on it; cancelled when there is news.
     asio::steady_timer watch_;  ///< Runs while a write or close is under way.
     asio::steady_timer nextPing_;
@@ -70,10 +70,11 @@ private:
 };
 
 template <class Layer>
-SocketOver<Layer>::SocketOver(Layer stream, session::Shared& shared, std::uint64_t number)
+SocketOver<Layer>::SocketOver(Layer stream, session::Shared& shared, const WebSocketDesc& desc)
     : socket_{std::move(stream)},
       shared_{shared},
-      number_{number},
+      number_{desc.number},
+      writePatience_{desc.writePatience},
       wake_{socket_.get_executor()},
       watch_{socket_.get_executor()},
       nextPing_{socket_.get_executor()} {
@@ -203,7 +204,7 @@ asio::awaitable<bool> SocketOver<Layer>::write(const session::Outgoing& message)
             sum += more;
         }
         done += sum;
-        watch(kStuckWrite);
+        watch(writePatience_);
         const auto [error, bytes] =
             co_await socket_.async_write_some(done >= total, buffers, kAsTuple);
         watch_.cancel();
@@ -252,13 +253,13 @@ void SocketOver<Layer>::drain() {
 }  // namespace
 
 std::shared_ptr<WebSocket> makeWebSocket(Stream stream, session::Shared& shared,
-                                         std::uint64_t number) {
-    return std::make_shared<SocketOver<Stream>>(std::move(stream), shared, number);
+                                         const WebSocketDesc& desc) {
+    return std::make_shared<SocketOver<Stream>>(std::move(stream), shared, desc);
 }
 
 std::shared_ptr<WebSocket> makeWebSocket(TlsStream stream, session::Shared& shared,
-                                         std::uint64_t number) {
-    return std::make_shared<SocketOver<TlsStream>>(std::move(stream), shared, number);
+                                         const WebSocketDesc& desc) {
+    return std::make_shared<SocketOver<TlsStream>>(std::move(stream), shared, desc);
 }
 
 }  // namespace volcast::net

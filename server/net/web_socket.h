@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <memory>
 
@@ -30,9 +31,14 @@ protected:
     WebSocket() = default;
 };
 
+/// Who it is, and how long it may take nothing of what is sent to it.
+struct WebSocketDesc {
+    std::uint64_t number = 0;
+    std::chrono::seconds writePatience{};
+};
 std::shared_ptr<WebSocket> makeWebSocket(Stream stream, session::Shared& shared,
-                                         std::uint64_t number);
+                                         const WebSocketDesc& desc);
 std::shared_ptr<WebSocket> makeWebSocket(TlsStream stream, session::Shared& shared,
-                                         std::uint64_t number);
+                                         const WebSocketDesc& desc);
 
 }  // namespace volcast::net

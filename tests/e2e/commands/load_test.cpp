@@ -72,6 +72,19 @@ TEST(Load, EachKindOfClientReportsWhatItSaw) {
     EXPECT_GE(number(server, "processes"), 2);
 }
 
+// Pings take the link's time too, so the server sees a long way, not a queue in front of a thin
+// one.
+TEST(Load, ALongWayThatIsWideCostsNoPicture) {
+    const Outcome ran =
+        runVolcast({"load", "--clients", "shaped", "--link-mbit", "100", "--link-delay", "200",
+                    "--rate", "10", "--duration", "4", "--json", "--max-errors", "0"});
+    ASSERT_EQ(ran.exitCode, 0) << ran.err;
+    const json::value seen = parsed(ran).at("kinds").at("shaped");
+    EXPECT_GE(number(seen.at("input_to_frame_ms"), "p50"), 200);
+    EXPECT_EQ(number(seen, "quality_least"), 90);
+    EXPECT_GT(number(seen, "scale_least"), 0);
+}
+
 // A client that idles in a view of its own never sees an input, so ages show that views are shared.
 TEST(Load, SixClientsShareTwoViewsThatMove) {
     const Outcome ran = runVolcast(small({"--clients", "idle=3,orbit=2,slow", "--views", "2",

@@ -52,11 +52,12 @@ std::string closeFrame(unsigned code, const std::string& reason) {
     return rawFrame(kClose, bigEndian(code, 2) + reason);
 }
 
-RawSocket::RawSocket(std::uint16_t port) : fd_{::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)} {
+RawSocket::RawSocket(std::uint16_t port, const std::string& at)
+    : fd_{::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)} {
     sockaddr_in address{};
     address.sin_family = AF_INET;
     address.sin_port = htons(port);
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    ::inet_pton(AF_INET, at.c_str(), &address.sin_addr);
     const int one = 1;
     ::setsockopt(fd_, IPPROTO_TCP, TCP_NODELAY, &one, sizeof(one));
     if (::connect(fd_, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) != 0) {
@@ -88,13 +89,17 @@ bool RawSocket::fill() {
     return true;
 }
 
-bool RawSocket::upgrade(const std::string& moreHeaders) {
+std::string RawSocket::upgradeAnswer(const std::string& moreHeaders) {
     send(
         "GET /v1/ws HTTP/1.1\r\nHost: 127.0.0.1\r\nUpgrade: websocket\r\n"
         "Connection: Upgrade\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n"
         "Sec-WebSocket-Version: 13\r\nSec-WebSocket-Protocol: volcast.v1\r\n" +
         moreHeaders + "\r\n");
-    return readHead().starts_with("HTTP/1.1 101 ");
+    return readHead();
+}
+
+bool RawSocket::upgrade(const std::string& moreHeaders) {
+    return upgradeAnswer(moreHeaders).starts_with("HTTP/1.1 101 ");
 }
 
 std::string RawSocket::readHead() {

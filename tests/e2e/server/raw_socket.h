@@ -31,10 +31,10 @@ std::string rawFrame(unsigned opcode, const std::string& payload, const FrameFor
 /// A close frame of `code` and `reason`.
 std::string closeFrame(unsigned code, const std::string& reason = "");
 
-/// A TCP connection to 127.0.0.1 that writes what it is told; no WebSocket library between.
+/// A TCP connection to this machine that writes what it is told; no WebSocket library between.
 class RawSocket {
 public:
-    explicit RawSocket(std::uint16_t port);
+    explicit RawSocket(std::uint16_t port, const std::string& address = "127.0.0.1");
     RawSocket(const RawSocket&) = delete;
     RawSocket& operator=(const RawSocket&) = delete;
     RawSocket(RawSocket&&) = delete;
@@ -45,6 +45,8 @@ public:
     bool send(const std::string& bytes) const;
     /// Sends a valid opening handshake and reads the answer; true for 101.
     bool upgrade(const std::string& moreHeaders = "");
+    /// The head of that answer.
+    std::string upgradeAnswer(const std::string& moreHeaders = "");
     /// The answer's head of an HTTP request, up to its blank line; empty where the server closed.
     std::string readHead();
     /// The next frame but the pings that the server measures the way with; nullopt where the server

@@ -69,6 +69,34 @@ TEST(Report, AgesAreOfAllClients) {
                 ElementsAre("frame age: no frame showed a new input"));
 }
 
+// As of a server that freezes 1 s into 10: what it answered says nothing of the rest.
+TEST(Report, WhatIsStillOpenAtTheEndBreaksLimitsByItsTimeSoFar) {
+    Outcome outcome = twoViews();
+    for (int i = 0; i < 900; ++i) outcome.kinds["orbit"].unanswered.add(10 * i);
+    for (int i = 0; i < 900; ++i) outcome.kinds["idle, watching"].unseen.add(10 * i);
+    const Thresholds limits{
+        .maxP50Ms = 1000, .maxP99Ms = 1000, .maxAgeP99Ms = 1000, .maxAgeMs = 1000};
+    EXPECT_THAT(violations(outcome, limits),
+                ElementsAre(HasSubstr("input to frame p50 ms: 3998"),
+                            HasSubstr("input to frame p99 ms: 8"), HasSubstr("frame age p99 ms: 8"),
+                            "frame age max ms: 8990, more than 1000, 900 of them still open"));
+    EXPECT_THAT(reportText({}, outcome), HasSubstr("; 900 inputs unanswered, waiting 4"));
+    const auto json = reportJson({}, outcome, {}).at("kinds").at("orbit");
+    EXPECT_EQ(json.at("unanswered").to_number<int>(), 900);
+    EXPECT_EQ(json.at("unanswered_ms").at("max").to_number<double>(), 8990);
+    EXPECT_EQ(json.at("input_to_frame_ms").at("count").to_number<int>(), 100);
+}
+
+// Sent a moment before the end: no longer than the others took, and no reason to count those less.
+TEST(Report, InputsOfTheLastMomentChangeNoQuantile) {
+    Outcome outcome = twoViews();
+    for (int i = 0; i < 100; ++i) outcome.kinds["orbit"].unanswered.add(1);
+    EXPECT_THAT(violations(outcome, {.maxP50Ms = 51, .maxP95Ms = 96.5, .maxP99Ms = 100}),
+                IsEmpty());
+    EXPECT_THAT(violations(outcome, {.maxP50Ms = 49}),
+                ElementsAre(HasSubstr("input to frame p50 ms: 50")));
+}
+
 TEST(Report, GrowthIsFromBeginToEnd) {
     Outcome outcome = twoViews();
     outcome.after.treeBytes += 3'000'000;
