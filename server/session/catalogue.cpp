@@ -13,7 +13,8 @@ namespace volcast::session {
 
 namespace {
 
-constexpr std::chrono::seconds kScanAge{1};
+constexpr int kRestPerScan = 10;
+constexpr std::chrono::nanoseconds kLongestRest = std::chrono::seconds{1};
 constexpr double kProgressStep = 0.02;
 
 v1::DatasetInfo listed(const std::string& id, const std::string& name) {
@@ -42,7 +43,7 @@ Catalogue::Catalogue(CatalogueDesc desc, workers::RenderService& render, base::F
         entries_["demo:mesh"].info = listed("demo:mesh", "Demo: tetrahedral mesh");
         entries_["demo:volume"].info = listed("demo:volume", "Demo: voxels");
     } else {
-        rescan();
+        scan();
     }
     for (unsigned i = 0; i < std::max(1U, desc_.importsAtOnce); ++i) {
         threads_.emplace_back([this] { importLoop(); });
@@ -59,11 +60,25 @@ Catalogue::~Catalogue() {
     for (std::thread& thread : threads_) thread.join();
 }
 
-void Catalogue::rescan() {
-    scanned_ = std::chrono::steady_clock::now();
+void Catalogue::look() {
+    const std::lock_guard lock{scanMutex_};
+    if (desc_.now() >= restUntil_) scan();
+}
+
+void Catalogue::scan() {
     if (desc_.folder.empty()) return;
+    const auto began = desc_.now();
+    const std::vector<FoundDataset> all = desc_.scanner(desc_.folder, root_);
+    const auto ended = desc_.now();
+    restUntil_ =
+        ended + std::min<std::chrono::nanoseconds>(kRestPerScan * (ended - began), kLongestRest);
+    merge(all);
+}
+
+void Catalogue::merge(const std::vector<FoundDataset>& all) {
+    const std::lock_guard lock{mutex_};
     for (auto& [id, entry] : entries_) entry.present = false;
-    for (FoundDataset& found : scanFolder(desc_.folder, root_)) {
+    for (const FoundDataset& found : all) {
         const auto [at, isNew] = entries_.try_emplace(found.id);
         at->second.present = true;
         at->second.signature = found.signature;
@@ -86,21 +101,21 @@ void Catalogue::rescan() {
 }
 
 v1::DatasetList Catalogue::list() {
+    look();
     const std::lock_guard lock{mutex_};
-    if (std::chrono::steady_clock::now() - scanned_ > kScanAge) rescan();
     v1::DatasetList all;
     for (const auto& [id, entry] : entries_) *all.add_datasets() = entry.info;
     return all;
 }
 
 void Catalogue::refresh() {
-    const std::lock_guard lock{mutex_};
-    rescan();
+    const std::lock_guard lock{scanMutex_};
+    scan();
 }
 
 Result<v1::DatasetInfo> Catalogue::open(const std::string& id) {
+    look();
     const std::lock_guard lock{mutex_};
-    rescan();
     const auto found = entries_.find(id);
     if (found == entries_.end()) {
         return fail(ErrorCode::kNotFound, "dataset \"" + id + "\" is not in the data folder",

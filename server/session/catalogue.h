@@ -26,8 +26,14 @@ using Importer = std::function<Result<workers::ImportedDataset>(
     const workers::ImportRequest&, const workers::ImportSettings&,
     const std::function<void(const std::string& stage, double fraction)>&)>;
 
+/// Lists what the data folder holds; scanFolder.
+using Scanner = std::function<std::vector<FoundDataset>(const std::string& folder,
+                                                        const base::FileDescriptor& root)>;
+
 struct CatalogueDesc {
     std::string folder;  ///< Empty: the built-in demo datasets.
+    Scanner scanner = scanFolder;
+    std::function<std::chrono::steady_clock::time_point()> now = std::chrono::steady_clock::now;
     workers::ImportSettings imports;
     unsigned importsAtOnce = 1;
     Importer importer = workers::runImport;
@@ -51,6 +57,10 @@ struct DatasetStanding {
 ///
 /// All methods may be called from any thread. Names are looked up in the list, never in the file
 /// system, so they cannot lead out of the folder.
+///
+/// A look into the folder is followed by a rest of ten times its length, a second at most, in
+/// which the list is taken as it is: whoever asks for what was put there asks again then. While
+/// somebody looks, only those wait who want to look as well.
 class Catalogue {
 public:
     using Listener = std::function<void(const v1::DatasetInfo&)>;
@@ -67,13 +77,14 @@ public:
     /// Waits for imports that run; those that wait are dropped.
     ~Catalogue();
 
-    /// All datasets; looks into the folder again where the last look is older than a second.
+    /// All datasets; looks into the folder first where the rest is over.
     v1::DatasetList list();
 
     /// Looks into the folder now, and tells everybody what is new in it.
     void refresh();
 
-    /// Starts an import where the dataset was never read, failed before, or changed on disk.
+    /// Starts an import where the dataset was never read, failed before, or changed on disk; looks
+    /// into the folder first where the rest is over.
     ///
     /// Errors: kNotFound (no such dataset, or its file vanished; what is loaded stays).
     Result<v1::DatasetInfo> open(const std::string& id);
@@ -105,7 +116,10 @@ private:
     };
 
     Catalogue(CatalogueDesc desc, workers::RenderService& render, base::FileDescriptor root);
-    void rescan();
+    /// Looks into the folder where the rest is over; without mutex_.
+    void look();
+    void scan();
+    void merge(const std::vector<FoundDataset>& all);
     void startImport(Entry& entry);
     void importLoop();
     void importOne(const std::string& id);
@@ -116,10 +130,11 @@ private:
     const CatalogueDesc desc_;
     workers::RenderService& render_;
     const base::FileDescriptor root_;
+    std::mutex scanMutex_;  ///< Held while the folder is looked into; locked before mutex_.
+    std::chrono::steady_clock::time_point restUntil_{};  ///< Guarded by scanMutex_.
     mutable std::mutex mutex_;
     std::condition_variable wake_;
     std::map<std::string, Entry> entries_;
-    std::chrono::steady_clock::time_point scanned_{};
     std::map<std::uint64_t, Listener> listeners_;
     std::uint64_t lastListener_ = 0;
     std::deque<std::string> queue_;
