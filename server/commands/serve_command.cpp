@@ -104,7 +104,8 @@ session::CatalogueDesc catalogueOf(const ServeSettings& settings, workers::Fault
     desc.imports = settings.imports;
     desc.importsAtOnce = settings.importsAtOnce;
     if (!settings.allowFaults) return desc;
-    spdlog::warn("event=faults_allowed message=\"any client may let workers and imports fail\"");
+    spdlog::warn(
+        "event=faults_allowed message=\"who may steer a view may let workers and imports fail\"");
     desc.imports.fault = [&faults] { return faults.takeForImport(); };
     return desc;
 }
@@ -232,7 +233,8 @@ void addLimits(CLI::App& command, ServeSettings& settings) {
 void addFaults(CLI::App& command, ServeSettings& settings) {
     CLI::Option* allowed = command.add_flag(
         "--allow-faults", settings.allowFaults,
-        "FOR TESTS ALONE: lets every client crash and hang workers and imports (InjectFault)");
+        "FOR TESTS ALONE: lets every client that may steer a view crash and hang workers and "
+        "imports of all (InjectFault); with --uploads-need-token only with a token");
     command
         .add_option_function<std::string>(
             "--worker-fault",

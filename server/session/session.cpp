@@ -167,15 +167,16 @@ bool Session::identify(const v1::Hello& message) {
 }
 
 void Session::takeAccess(const std::string& token) {
-    if (shared_.uploads == nullptr) return;
-    mayUpload_ = !shared_.uploads->limits().needToken;
-    if (mayUpload_ || token.empty()) return;
-    const auto access = shared_.views.access(token);
-    if (access) {
-        mayUpload_ = access->role == v1::ROLE_CONTROL;
-        return;
+    mayChangeServer_ = shared_.uploads == nullptr || !shared_.uploads->limits().needToken;
+    if (!mayChangeServer_ && !token.empty()) {
+        const auto access = shared_.views.access(token);
+        if (!access) {
+            send(errorMessage(v1::ERROR_CODE_NOT_PERMITTED, access.error().message, {},
+                              "hello.access"));
+        }
+        mayChangeServer_ = access && access->role == v1::ROLE_CONTROL;
     }
-    send(errorMessage(v1::ERROR_CODE_NOT_PERMITTED, access.error().message, {}, "hello.access"));
+    mayUpload_ = shared_.uploads != nullptr && mayChangeServer_;
 }
 
 void Session::welcome() {
