@@ -70,6 +70,9 @@ void Session::receive(std::span<const std::byte> bytes, Form form, TimePoint now
         if (!greeted_) end({kPolicyViolation, "malformed hello"});
         return;
     }
+    if (greeted_ && !std::exchange(answered_, true)) {
+        shared_.views.people().welcomed(who_.person, who_.visit);
+    }
     if (message->has_hello()) return hello(message->hello());
     if (!greeted_) {
         send(errorMessage(v1::ERROR_CODE_UNEXPECTED_MESSAGE, "the first message must be hello"));

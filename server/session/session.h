@@ -132,6 +132,7 @@ private:
     TimePoint created_ = Clock::now();
     std::uint64_t subscription_ = 0;
     bool greeted_ = false;
+    bool answered_ = false;         ///< Something came behind the hello.
     PersonBook::Arrival who_;       ///< Once greeted.
     bool mayChangeServer_ = false;  ///< Brought a token of ROLE_CONTROL, or none is asked for.
     bool mayUpload_ = false;

@@ -41,6 +41,7 @@ TEST_F(SessionPeople, AResumeTokenIsGoodOnce) {
     const auto back = server.client();
     back->hello({}, welcome.resume());
     ASSERT_TRUE(back->wait(hasWelcome)->welcome().resumed());
+    back->setName("Ann");  // Any message shows that the welcome with the next token came.
     const auto thief = server.client();
     thief->hello("Thief", welcome.resume());
     const auto refused = thief->error();
@@ -49,6 +50,27 @@ TEST_F(SessionPeople, AResumeTokenIsGoodOnce) {
     EXPECT_EQ(refused->field(), "hello.resume");
     EXPECT_FALSE(thief->wait(hasWelcome)->welcome().resumed());
     EXPECT_FALSE(back->session->closing().has_value()) << "a replay ends nobody's connection";
+}
+
+TEST_F(SessionPeople, WhoseWelcomeWasLostComesBackWithTheSameToken) {
+    ann.reset();
+    const auto lost = server.client();
+    lost->hello({}, welcome.resume());  // Its welcome is never read.
+    const auto back = server.client();
+    back->hello({}, welcome.resume());
+    const auto again = back->wait(hasWelcome);
+    ASSERT_TRUE(again->welcome().resumed());
+    EXPECT_EQ(again->welcome().person(), welcome.person());
+    ASSERT_TRUE(back->wait(hasOpened).has_value());
+    for (int i = 0; i < 100 && !lost->session->closing(); ++i) lost->run();
+    ASSERT_TRUE(lost->session->closing().has_value()) << "two connections hold one person";
+    EXPECT_EQ(lost->session->closing()->code, 4001);
+    back->look(2, 3.0);
+    back->undo();
+    EXPECT_TRUE(back->sceneChanged().has_value()) << "it does not steer";
+    const auto thief = server.client();
+    thief->hello("Thief", welcome.resume());
+    EXPECT_FALSE(thief->wait(hasWelcome)->welcome().resumed());
 }
 
 // A network that went away without a word: the server still holds the old connection.
