@@ -73,6 +73,35 @@ TEST_F(SessionPeople, WhoseWelcomeWasLostComesBackWithTheSameToken) {
     EXPECT_FALSE(thief->wait(hasWelcome)->welcome().resumed());
 }
 
+TEST_F(SessionPeople, WhosePlaceWasTakenOrWhoseViewEndedIsToldWhich) {
+    const auto hello = [&](const std::string& name, const std::string& resume = {}) {
+        auto client = server.client();
+        client->hello(name, resume);
+        return client;
+    };
+    auto ben = hello("Ben");
+    const std::string token = ben->wait(hasWelcome)->welcome().resume();
+    ben->openView(ann->share(v1::ROLE_WATCH));
+    ASSERT_TRUE(ben->wait(hasOpened).has_value());
+    ben->openView({}, 2);
+    ASSERT_TRUE(ben->wait(hasOpened).has_value());
+    ben.reset();
+    const auto cy = join("Cy", v1::ROLE_WATCH), di = join("Di", v1::ROLE_WATCH),
+               ed = join("Ed", v1::ROLE_WATCH);        // Four may be in it.
+    for (std::uint32_t view = 2; view <= 3; ++view) {  // Three may be open.
+        ann->openView({}, view);
+        ASSERT_TRUE(ann->wait(hasOpened).has_value());
+    }
+    ben = hello({}, token);
+    ASSERT_TRUE(ben->wait(hasWelcome)->welcome().resumed());
+    const auto full = ben->error(), ended = ben->error();
+    ASSERT_TRUE(full && ended);
+    EXPECT_EQ(full->view(), 1U);
+    EXPECT_NE(full->message().find("full (--max-people)"), std::string::npos) << full->message();
+    EXPECT_EQ(ended->view(), 2U);
+    EXPECT_EQ(ended->message(), "view 2 has ended meanwhile");
+}
+
 // A network that went away without a word: the server still holds the old connection.
 TEST_F(SessionPeople, ResumingEndsTheConnectionThatWasThoughtAlive) {
     const auto back = server.client();
