@@ -11,9 +11,11 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "renderer/scene/scene.h"
+#include "server/session/dataset_hold.h"
 #include "server/session/folder_scan.h"
 #include "server/workers/import_service.h"
 #include "server/workers/render_service.h"
@@ -36,6 +38,7 @@ struct CatalogueDesc {
     std::function<std::chrono::steady_clock::time_point()> now = std::chrono::steady_clock::now;
     workers::ImportSettings imports;
     unsigned importsAtOnce = 1;
+    std::uint64_t maxDataBytes = 0;  ///< Of all imported data together; 0: no limit.
     Importer importer = workers::runImport;
 };
 
@@ -53,7 +56,10 @@ struct DatasetStanding {
 };
 
 /// The datasets of one folder: listed cheaply, imported on demand on threads of its own, given to
-/// the render service when ready. What was loaded stays usable whatever happens to its file.
+/// the render service when ready. What was loaded stays usable whatever happens to its file, until
+/// other data needs its memory: where an import passes `maxDataBytes`, loaded datasets that nobody
+/// holds are let go, beginning with the one that was not asked for the longest. Such a one is
+/// listed as it was before its import, and imported again when it is asked for.
 ///
 /// All methods may be called from any thread. Names are looked up in the list, never in the file
 /// system, so they cannot lead out of the folder.
@@ -92,6 +98,11 @@ public:
     /// As open(), but content with what is loaded, be it of an older file.
     Result<DatasetStanding> require(const std::string& id);
 
+    /// Keeps `ids`, known or not, from being let go; to be had before it is asked whether they are
+    /// loaded.
+    [[nodiscard]] DatasetHold hold(std::vector<std::string> ids) const {
+        return {holds_, std::move(ids)};
+    }
     [[nodiscard]] DatasetStanding standing(const std::string& id) const;
     /// Summaries of those of `ids` that are loaded.
     [[nodiscard]] scene::Summaries summaries(const std::vector<std::string>& ids) const;
@@ -113,6 +124,8 @@ private:
         bool present = true;                ///< Still in the folder.
         std::optional<data::DatasetSummary> summary;  ///< Of what is loaded.
         std::uint64_t version = 0;
+        std::uint64_t bytes = 0;  ///< Of what is loaded.
+        std::uint64_t asked = 0;  ///< When it was asked for last, counted by `asks_`.
     };
 
     Catalogue(CatalogueDesc desc, workers::RenderService& render, base::FileDescriptor root);
@@ -124,7 +137,10 @@ private:
     void importLoop();
     void importOne(const std::string& id);
     void progressed(const std::string& id, const std::string& stage, double fraction);
-    void finished(Entry& entry, workers::ImportedDataset imported);
+    void finished(Entry& entry, workers::ImportedDataset imported, std::uint64_t bytes);
+    /// Errors: kLimitExceeded where so much more than `entry` holds now is too much.
+    Result<void> makeRoom(const Entry& entry, std::uint64_t bytes);
+    void letGo(Entry& entry);
     void tell(const v1::DatasetInfo& info);
 
     const CatalogueDesc desc_;
@@ -135,6 +151,9 @@ private:
     mutable std::mutex mutex_;
     std::condition_variable wake_;
     std::map<std::string, Entry> entries_;
+    const std::shared_ptr<DatasetHolds> holds_ = std::make_shared<DatasetHolds>();
+    std::uint64_t dataBytes_ = 0;  ///< Of all entries.
+    std::uint64_t asks_ = 0;
     std::map<std::uint64_t, Listener> listeners_;
     std::uint64_t lastListener_ = 0;
     std::deque<std::string> queue_;
