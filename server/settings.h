@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <string>
 
 #include "server/net/server.h"
@@ -18,6 +19,7 @@ struct ServeSettings {
     workers::RenderSettings render;
     workers::ImportSettings imports;
     unsigned importsAtOnce = 1;
+    std::uint64_t maxDataBytes = 0;  ///< Of all imported data; 0: no limit.
     unsigned encodeThreads = 2;
     session::SessionLimits limits;
     bool allowUploads = false;

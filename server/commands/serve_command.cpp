@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
 #include <map>
 #include <memory>
 #include <thread>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <spdlog/sinks/stdout_color_sinks.h>
@@ -30,6 +32,19 @@ std::string defaultClientFolder() {
     std::error_code ignored;
     const auto program = std::filesystem::read_symlink("/proc/self/exe", ignored);
     return clientFolderOf(program);
+}
+
+/// Bytes that this machine has, or the container; 0: unknown.
+std::uint64_t memoryOfMachine() {
+    const auto pages = ::sysconf(_SC_PHYS_PAGES), pageBytes = ::sysconf(_SC_PAGESIZE);
+    const bool known = pages > 0 && pageBytes > 0;
+    std::uint64_t bytes =
+        known ? static_cast<std::uint64_t>(pages) * static_cast<std::uint64_t>(pageBytes) : 0;
+    std::uint64_t ofContainer = 0;
+    if (std::ifstream{"/sys/fs/cgroup/memory.max"} >> ofContainer) {  // Else absent, or "max".
+        bytes = known ? std::min(bytes, ofContainer) : ofContainer;
+    }
+    return bytes;
 }
 
 /// One line an event on stderr: time, level, then key=value.
@@ -104,8 +119,10 @@ session::CatalogueDesc catalogueOf(const ServeSettings& settings, workers::Fault
     desc.folder = settings.dataFolder;
     desc.imports = settings.imports;
     desc.importsAtOnce = settings.importsAtOnce;
+    desc.maxDataBytes = settings.maxDataBytes;
     if (!settings.allowFaults) return desc;
-    spdlog::warn("event=faults_allowed message=\"any client may let workers and imports fail\"");
+    spdlog::warn(
+        "event=faults_allowed message=\"who may steer a view may let workers and imports fail\"");
     desc.imports.fault = [&faults] { return faults.takeForImport(); };
     return desc;
 }
@@ -241,6 +258,12 @@ void addLimits(CLI::App& command, ServeSettings& settings) {
         ->check(CLI::Range(64, 1 << 20));
     command
         .add_option_function<std::uint64_t>(
+            "--max-data-mb", [&settings](std::uint64_t mb) { settings.maxDataBytes = mb << 20U; },
+            "Memory that all imported data may take, beside imports that run: data that no view "
+            "shows makes room (default half of the machine's)")
+        ->check(CLI::Range(1, 1 << 30));
+    command
+        .add_option_function<std::uint64_t>(
             "--volume-budget",
             [&settings](std::uint64_t mib) { settings.render.volumeBudgetBytes = mib << 20U; },
             "MiB of GPU memory for all voxels of a scene: those that take more are drawn from "
@@ -252,7 +275,8 @@ void addLimits(CLI::App& command, ServeSettings& settings) {
 void addFaults(CLI::App& command, ServeSettings& settings) {
     CLI::Option* allowed = command.add_flag(
         "--allow-faults", settings.allowFaults,
-        "FOR TESTS ALONE: lets every client crash and hang workers and imports (InjectFault)");
+        "FOR TESTS ALONE: lets every client that may steer a view crash and hang workers and "
+        "imports of all (InjectFault); with --uploads-need-token only with a token");
     command
         .add_option_function<std::string>(
             "--worker-fault",
@@ -326,6 +350,7 @@ void addServeCommand(CLI::App& app, int& exitCode) {
     settings->listen.threads = std::clamp(cores, 1U, 4U);
     settings->encodeThreads = std::clamp(cores, 1U, 8U);
     settings->importsAtOnce = cores > 4 ? 2 : 1;
+    settings->maxDataBytes = memoryOfMachine() / 2;
     settings->serverName = app.version();
     CLI::App& command =
         *app.add_subcommand("serve", "Serve a folder of data, or the built-in demo, to browsers");

@@ -1,5 +1,6 @@
 #include "server/session/beneath.h"
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <climits>
@@ -16,6 +17,13 @@ constexpr int kMostLinks = 40;  ///< As many as the kernel follows in a path.
 constexpr int kRead = O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY | O_NOFOLLOW;
 constexpr int kPass = O_PATH | O_DIRECTORY | O_CLOEXEC | O_NOFOLLOW;
 
+/// What says that there is nothing to read under a name: ENXIO is a socket, ENAMETOOLONG a name
+/// that no file can have.
+bool isAbsent(int error) {
+    constexpr std::array kAbsent{ENOENT, ENOTDIR, EXDEV, ELOOP, ENAMETOOLONG, ENXIO};
+    return std::ranges::find(kAbsent, error) != kAbsent.end();
+}
+
 /// Where a symbolic link leads; empty where `name` is none.
 std::string targetOf(int folder, const std::string& name) {
     std::array<char, PATH_MAX> text{};
@@ -31,7 +39,8 @@ public:
 
     /// What `path` names, open for reading; not valid, with errno, where it cannot be had.
     base::FileDescriptor open(std::string path) {
-        if (path.empty()) return refuse(ENOENT);
+        // The kernel would read the name up to the NUL alone.
+        if (path.empty() || path.find('\0') != std::string::npos) return refuse(ENOENT);
         while (true) {
             if (path.starts_with('/')) return refuse(EXDEV);
             const std::size_t end = path.find('/');
@@ -100,9 +109,9 @@ Result<base::FileDescriptor> openBeneath(const base::FileDescriptor& folder,
                                          const std::string& path, Links links) {
     base::FileDescriptor file = Walk{folder.get(), links}.open(path);
     if (file.valid()) return file;
-    const std::string text = path + ": " + std::strerror(errno);
-    const bool absent = errno == ENOENT || errno == ENOTDIR || errno == EXDEV || errno == ELOOP;
-    return fail(absent ? ErrorCode::kNotFound : ErrorCode::kIo, text);
+    const int why = errno;
+    return fail(isAbsent(why) ? ErrorCode::kNotFound : ErrorCode::kIo,
+                path + ": " + std::strerror(why));
 }
 
 }  // namespace volcast::session

@@ -18,7 +18,10 @@ Result<base::FileDescriptor> openFolder(const std::string& path);
 /// Opens `path`, relative to `folder`, for reading, a name at a time from the folder that
 /// was reached: no link, no ".." and nothing that is moved meanwhile leads out of it.
 ///
-/// Errors: kNotFound (missing, or leads out), kIo (not readable).
+/// A FIFO opens at once, whether somebody writes to it or not.
+///
+/// Errors: kNotFound (missing, no name that a file can have, a socket, or leads out), kIo (not
+/// readable).
 Result<base::FileDescriptor> openBeneath(const base::FileDescriptor& folder,
                                          const std::string& path, Links links);
 

@@ -1,6 +1,7 @@
 #include "server/session/catalogue.h"
 
 #include <algorithm>
+#include <sys/stat.h>
 #include <utility>
 
 #include <spdlog/spdlog.h>
@@ -13,8 +14,19 @@ namespace volcast::session {
 
 namespace {
 
-constexpr std::chrono::seconds kScanAge{1};
+constexpr int kRestPerScan = 10;
+constexpr std::chrono::nanoseconds kLongestRest = std::chrono::seconds{1};
 constexpr double kProgressStep = 0.02;
+constexpr std::uint64_t kMib = std::uint64_t{1} << 20U;
+
+std::string mib(std::uint64_t bytes) {
+    return std::to_string((bytes + kMib - 1) / kMib) + " MiB";
+}
+
+std::uint64_t sizeOf(const base::FileDescriptor& packed) {
+    struct stat status {};
+    return ::fstat(packed.get(), &status) == 0 ? static_cast<std::uint64_t>(status.st_size) : 0;
+}
 
 v1::DatasetInfo listed(const std::string& id, const std::string& name) {
     v1::DatasetInfo info;
@@ -42,7 +54,7 @@ Catalogue::Catalogue(CatalogueDesc desc, workers::RenderService& render, base::F
         entries_["demo:mesh"].info = listed("demo:mesh", "Demo: tetrahedral mesh");
         entries_["demo:volume"].info = listed("demo:volume", "Demo: voxels");
     } else {
-        rescan();
+        scan();
     }
     for (unsigned i = 0; i < std::max(1U, desc_.importsAtOnce); ++i) {
         threads_.emplace_back([this] { importLoop(); });
@@ -59,11 +71,25 @@ Catalogue::~Catalogue() {
     for (std::thread& thread : threads_) thread.join();
 }
 
-void Catalogue::rescan() {
-    scanned_ = std::chrono::steady_clock::now();
+void Catalogue::look() {
+    const std::lock_guard lock{scanMutex_};
+    if (desc_.now() >= restUntil_) scan();
+}
+
+void Catalogue::scan() {
     if (desc_.folder.empty()) return;
+    const auto began = desc_.now();
+    const std::vector<FoundDataset> all = desc_.scanner(desc_.folder, root_);
+    const auto ended = desc_.now();
+    restUntil_ =
+        ended + std::min<std::chrono::nanoseconds>(kRestPerScan * (ended - began), kLongestRest);
+    merge(all);
+}
+
+void Catalogue::merge(const std::vector<FoundDataset>& all) {
+    const std::lock_guard lock{mutex_};
     for (auto& [id, entry] : entries_) entry.present = false;
-    for (FoundDataset& found : scanFolder(desc_.folder, root_)) {
+    for (const FoundDataset& found : all) {
         const auto [at, isNew] = entries_.try_emplace(found.id);
         at->second.present = true;
         at->second.signature = found.signature;
@@ -86,33 +112,35 @@ void Catalogue::rescan() {
 }
 
 v1::DatasetList Catalogue::list() {
+    look();
     const std::lock_guard lock{mutex_};
-    if (std::chrono::steady_clock::now() - scanned_ > kScanAge) rescan();
     v1::DatasetList all;
     for (const auto& [id, entry] : entries_) *all.add_datasets() = entry.info;
     return all;
 }
 
 void Catalogue::refresh() {
-    const std::lock_guard lock{mutex_};
-    rescan();
+    const std::lock_guard lock{scanMutex_};
+    scan();
 }
 
 Result<v1::DatasetInfo> Catalogue::open(const std::string& id) {
+    look();
     const std::lock_guard lock{mutex_};
-    rescan();
     const auto found = entries_.find(id);
     if (found == entries_.end()) {
         return fail(ErrorCode::kNotFound, "dataset \"" + id + "\" is not in the data folder",
                     "dataset");
     }
     Entry& entry = found->second;
+    entry.asked = ++asks_;
     if (entry.info.state() == v1::DATASET_STATE_IMPORTING) return entry.info;
     if (!entry.present) {
+        const std::string rest =
+            entry.summary ? "; version " + std::to_string(entry.version) + " of it stays in use"
+                          : "";
         return fail(ErrorCode::kNotFound,
-                    "dataset \"" + id + "\" is no longer in the data folder; version " +
-                        std::to_string(entry.version) + " of it stays in use",
-                    "dataset");
+                    "dataset \"" + id + "\" is no longer in the data folder" + rest, "dataset");
     }
     const bool current = entry.summary && entry.importSignature == entry.signature;
     if (!current || entry.info.state() == v1::DATASET_STATE_FAILED) startImport(entry);
@@ -120,6 +148,11 @@ Result<v1::DatasetInfo> Catalogue::open(const std::string& id) {
 }
 
 Result<DatasetStanding> Catalogue::require(const std::string& id) {
+    {
+        const std::lock_guard lock{mutex_};
+        const auto found = entries_.find(id);
+        if (found != entries_.end()) found->second.asked = ++asks_;
+    }
     const DatasetStanding now = standing(id);
     if (now.loaded) return now;
     const auto opened = open(id);
@@ -225,12 +258,16 @@ void Catalogue::importOne(const std::string& id) {
         request, desc_.imports,
         [&](const std::string& stage, double fraction) { progressed(id, stage, fraction); });
     const std::lock_guard lock{mutex_};
-    ++(imported ? counts_.good : counts_.failed);
     Entry& entry = entries_.at(id);
+    const std::uint64_t bytes = imported ? sizeOf(imported->packed) : 0;
+    if (imported) {
+        if (const auto room = makeRoom(entry, bytes); !room) imported = room.error();
+    }
+    ++(imported ? counts_.good : counts_.failed);
     if (imported) {
         spdlog::info(R"(event=imported dataset="{}" format="{}" ms={:.0f} peak_mb={:.0f})",
                      base::printable(id), imported->format, imported->ms, imported->peakMb);
-        finished(entry, std::move(*imported));
+        finished(entry, std::move(*imported), bytes);
     } else {
         spdlog::warn(R"(event=import_failed dataset="{}" code={} error="{}")", base::printable(id),
                      name(imported.error().code), base::printable(imported.error().message, 1000));
@@ -250,7 +287,8 @@ void Catalogue::progressed(const std::string& id, const std::string& stage, doub
     tell(info);
 }
 
-void Catalogue::finished(Entry& entry, workers::ImportedDataset imported) {
+void Catalogue::finished(Entry& entry, workers::ImportedDataset imported, std::uint64_t bytes) {
+    dataBytes_ += bytes - std::exchange(entry.bytes, bytes);
     const std::string id = entry.info.id();
     entry.info = describe(id, entry.info.name(), imported.summary, imported.warnings);
     addMoments(entry.info, imported.moments);
@@ -258,6 +296,44 @@ void Catalogue::finished(Entry& entry, workers::ImportedDataset imported) {
     entry.info.set_version(++entry.version);
     entry.summary = std::move(imported.summary);
     render_.addDataset(id, std::move(imported.packed));
+}
+
+Result<void> Catalogue::makeRoom(const Entry& entry, std::uint64_t bytes) {
+    const auto mayGo = [&](const Entry& one) {
+        return &one != &entry && one.bytes > 0 && !holds_->holds(one.info.id()) &&
+               one.info.state() != v1::DATASET_STATE_IMPORTING;
+    };
+    const auto taken = [&] { return dataBytes_ - entry.bytes; };
+    std::uint64_t staying = taken();
+    for (const auto& [id, one] : entries_) staying -= mayGo(one) ? one.bytes : 0;
+    while (desc_.maxDataBytes > 0 && taken() + bytes > desc_.maxDataBytes) {
+        Entry* oldest = nullptr;
+        for (auto& [id, one] : entries_) {
+            if (mayGo(one) && (oldest == nullptr || one.asked < oldest->asked)) oldest = &one;
+        }
+        if (oldest == nullptr || staying + bytes > desc_.maxDataBytes) {
+            return fail(ErrorCode::kLimitExceeded,
+                        entry.info.id() + ": takes " + mib(bytes) + " of memory beside " +
+                            mib(staying) + " of data that views show; the limit is " +
+                            mib(desc_.maxDataBytes) + " (--max-data-mb)");
+        }
+        letGo(*oldest);
+    }
+    return {};
+}
+
+void Catalogue::letGo(Entry& entry) {
+    const std::string id = entry.info.id();
+    spdlog::info(R"(event=dataset_let_go dataset="{}" mb={})", base::printable(id),
+                 entry.bytes / kMib);
+    render_.removeDataset(id);
+    dataBytes_ -= std::exchange(entry.bytes, 0);
+    entry.summary.reset();
+    if (entry.info.state() != v1::DATASET_STATE_READY) return;  // Says why it cannot be read.
+    v1::DatasetInfo info = listed(id, entry.info.name());
+    info.set_thumbnail(entry.info.thumbnail());
+    entry.info = std::move(info);
+    tell(entry.info);
 }
 
 }  // namespace volcast::session

@@ -11,9 +11,11 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "renderer/scene/scene.h"
+#include "server/session/dataset_hold.h"
 #include "server/session/folder_scan.h"
 #include "server/workers/import_service.h"
 #include "server/workers/render_service.h"
@@ -26,10 +28,17 @@ using Importer = std::function<Result<workers::ImportedDataset>(
     const workers::ImportRequest&, const workers::ImportSettings&,
     const std::function<void(const std::string& stage, double fraction)>&)>;
 
+/// Lists what the data folder holds; scanFolder.
+using Scanner = std::function<std::vector<FoundDataset>(const std::string& folder,
+                                                        const base::FileDescriptor& root)>;
+
 struct CatalogueDesc {
     std::string folder;  ///< Empty: the built-in demo datasets.
+    Scanner scanner = scanFolder;
+    std::function<std::chrono::steady_clock::time_point()> now = std::chrono::steady_clock::now;
     workers::ImportSettings imports;
     unsigned importsAtOnce = 1;
+    std::uint64_t maxDataBytes = 0;  ///< Of all imported data together; 0: no limit.
     Importer importer = workers::runImport;
 };
 
@@ -47,10 +56,17 @@ struct DatasetStanding {
 };
 
 /// The datasets of one folder: listed cheaply, imported on demand on threads of its own, given to
-/// the render service when ready. What was loaded stays usable whatever happens to its file.
+/// the render service when ready. What was loaded stays usable whatever happens to its file, until
+/// other data needs its memory: where an import passes `maxDataBytes`, loaded datasets that nobody
+/// holds are let go, beginning with the one that was not asked for the longest. Such a one is
+/// listed as it was before its import, and imported again when it is asked for.
 ///
 /// All methods may be called from any thread. Names are looked up in the list, never in the file
 /// system, so they cannot lead out of the folder.
+///
+/// A look into the folder is followed by a rest of ten times its length, a second at most, in
+/// which the list is taken as it is: whoever asks for what was put there asks again then. While
+/// somebody looks, only those wait who want to look as well.
 class Catalogue {
 public:
     using Listener = std::function<void(const v1::DatasetInfo&)>;
@@ -67,13 +83,14 @@ public:
     /// Waits for imports that run; those that wait are dropped.
     ~Catalogue();
 
-    /// All datasets; looks into the folder again where the last look is older than a second.
+    /// All datasets; looks into the folder first where the rest is over.
     v1::DatasetList list();
 
     /// Looks into the folder now, and tells everybody what is new in it.
     void refresh();
 
-    /// Starts an import where the dataset was never read, failed before, or changed on disk.
+    /// Starts an import where the dataset was never read, failed before, or changed on disk; looks
+    /// into the folder first where the rest is over.
     ///
     /// Errors: kNotFound (no such dataset, or its file vanished; what is loaded stays).
     Result<v1::DatasetInfo> open(const std::string& id);
@@ -81,6 +98,11 @@ public:
     /// As open(), but content with what is loaded, be it of an older file.
     Result<DatasetStanding> require(const std::string& id);
 
+    /// Keeps `ids`, known or not, from being let go; to be had before it is asked whether they are
+    /// loaded.
+    [[nodiscard]] DatasetHold hold(std::vector<std::string> ids) const {
+        return {holds_, std::move(ids)};
+    }
     [[nodiscard]] DatasetStanding standing(const std::string& id) const;
     /// Summaries of those of `ids` that are loaded.
     [[nodiscard]] scene::Summaries summaries(const std::vector<std::string>& ids) const;
@@ -102,24 +124,36 @@ private:
         bool present = true;                ///< Still in the folder.
         std::optional<data::DatasetSummary> summary;  ///< Of what is loaded.
         std::uint64_t version = 0;
+        std::uint64_t bytes = 0;  ///< Of what is loaded.
+        std::uint64_t asked = 0;  ///< When it was asked for last, counted by `asks_`.
     };
 
     Catalogue(CatalogueDesc desc, workers::RenderService& render, base::FileDescriptor root);
-    void rescan();
+    /// Looks into the folder where the rest is over; without mutex_.
+    void look();
+    void scan();
+    void merge(const std::vector<FoundDataset>& all);
     void startImport(Entry& entry);
     void importLoop();
     void importOne(const std::string& id);
     void progressed(const std::string& id, const std::string& stage, double fraction);
-    void finished(Entry& entry, workers::ImportedDataset imported);
+    void finished(Entry& entry, workers::ImportedDataset imported, std::uint64_t bytes);
+    /// Errors: kLimitExceeded where so much more than `entry` holds now is too much.
+    Result<void> makeRoom(const Entry& entry, std::uint64_t bytes);
+    void letGo(Entry& entry);
     void tell(const v1::DatasetInfo& info);
 
     const CatalogueDesc desc_;
     workers::RenderService& render_;
     const base::FileDescriptor root_;
+    std::mutex scanMutex_;  ///< Held while the folder is looked into; locked before mutex_.
+    std::chrono::steady_clock::time_point restUntil_{};  ///< Guarded by scanMutex_.
     mutable std::mutex mutex_;
     std::condition_variable wake_;
     std::map<std::string, Entry> entries_;
-    std::chrono::steady_clock::time_point scanned_{};
+    const std::shared_ptr<DatasetHolds> holds_ = std::make_shared<DatasetHolds>();
+    std::uint64_t dataBytes_ = 0;  ///< Of all entries.
+    std::uint64_t asks_ = 0;
     std::map<std::uint64_t, Listener> listeners_;
     std::uint64_t lastListener_ = 0;
     std::deque<std::string> queue_;

@@ -4,6 +4,8 @@
 #include <cerrno>
 #include <cstring>
 #include <fcntl.h>
+#include <filesystem>
+#include <span>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -23,6 +25,7 @@ constexpr std::size_t kNonceBytes = 16;
 constexpr std::size_t kSignatureBytes = 32;
 constexpr std::size_t kHeadBytes = 1 + 1 + 8 + kNonceBytes;  ///< Version, role, expiry, nonce.
 constexpr std::size_t kMostText = 512;
+constexpr std::size_t kTemporaryBytes = 9;  ///< Of the random part of a temporary file's name.
 
 Result<std::string> randomBytes(std::size_t count) {
     std::string bytes(count, '\0');
@@ -119,6 +122,34 @@ Error systemError(const std::string& path, const std::string& what) {
     return fail(ErrorCode::kIo, path + ": " + what + ": " + std::strerror(errno));
 }
 
+std::string hexadecimal(std::span<const std::byte> bytes) {
+    constexpr const char* kDigits = "0123456789abcdef";
+    std::string text;
+    for (const std::byte byte : bytes) {
+        text += kDigits[std::to_integer<unsigned>(byte) >> 4U];
+        text += kDigits[std::to_integer<unsigned>(byte) & 15U];
+    }
+    return text;
+}
+
+/// A new file with `text`, on the disk, readable by its owner only; false, with errno, else.
+bool writeWhole(const std::string& path, const std::string& text) {
+    const base::FileDescriptor file{
+        ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600)};
+    if (!file.valid()) return false;
+    const auto written = ::write(file.get(), text.data(), text.size());
+    if (written < 0) return false;
+    errno = ENOSPC;  // For a write that stopped short.
+    return written == static_cast<ssize_t>(text.size()) && ::fsync(file.get()) == 0;
+}
+
+bool syncFolderOf(const std::string& path) {
+    const std::string folder = std::filesystem::path{path}.parent_path().string();
+    const base::FileDescriptor opened{
+        ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)};
+    return opened.valid() && ::fsync(opened.get()) == 0;
+}
+
 }  // namespace
 
 Result<LinkKey> LinkKey::random() {
@@ -135,21 +166,10 @@ Result<LinkKey> LinkKey::fromFile(const std::string& path) {
     if (!file.valid() && errno == ENOENT) {
         const auto made = random();
         if (!made) return made.error();
-        file = base::FileDescriptor{
-            ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600)};
-        if (!file.valid()) return systemError(path, "the key file cannot be made");
-        std::string text;
-        constexpr const char* kDigits = "0123456789abcdef";
-        for (const std::byte byte : made->bytes_) {
-            text += kDigits[std::to_integer<unsigned>(byte) >> 4U];
-            text += kDigits[std::to_integer<unsigned>(byte) & 15U];
-        }
-        text += '\n';
-        const auto written = ::write(file.get(), text.data(), text.size());
-        if (written != static_cast<ssize_t>(text.size()) || ::fsync(file.get()) != 0) {
-            return systemError(path, "the key cannot be written");
-        }
-        return *made;
+        const auto kept = made->keep(path);
+        if (!kept) return kept.error();
+        if (*kept) return *made;
+        file = base::FileDescriptor{::open(path.c_str(), O_RDONLY | O_CLOEXEC)};
     }
     if (!file.valid()) return systemError(path, "the key file cannot be opened");
     struct stat status {};
@@ -173,6 +193,26 @@ Result<LinkKey> LinkKey::fromFile(const std::string& path) {
         key.bytes_[i] = static_cast<std::byte>(std::stoul(digits.substr(2 * i, 2), nullptr, 16));
     }
     return key;
+}
+
+/// Written whole beside `path`, brought to the disk, then linked there: a crash leaves no key or
+/// all of it, and of several that are made at once one stays. False where there is one already.
+Result<bool> LinkKey::keep(const std::string& path) const {
+    const auto unique = randomName(kTemporaryBytes);
+    if (!unique) return unique.error();
+    const std::string temporary = path + "." + *unique + ".tmp";
+    if (!writeWhole(temporary, hexadecimal(bytes_) + "\n")) {
+        const Error error = systemError(path, "the key cannot be written");
+        ::unlink(temporary.c_str());
+        return error;
+    }
+    const bool linked = ::link(temporary.c_str(), path.c_str()) == 0;
+    const int why = errno;
+    ::unlink(temporary.c_str());
+    errno = why;
+    if (!linked && errno == EEXIST) return false;
+    if (!linked || !syncFolderOf(path)) return systemError(path, "the key file cannot be made");
+    return true;
 }
 
 LinkKey::Signature LinkKey::sign(const std::string& purpose, const std::string& bytes) const {

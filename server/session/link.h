@@ -31,6 +31,8 @@ public:
     [[nodiscard]] Signature sign(const std::string& purpose, const std::string& bytes) const;
 
 private:
+    [[nodiscard]] Result<bool> keep(const std::string& path) const;
+
     std::array<std::byte, kBytes> bytes_{};
 };
 

@@ -1,6 +1,8 @@
 #include "server/session/person_book.h"
 
 #include <algorithm>
+#include <iterator>
+#include <tuple>
 #include <utility>
 
 namespace volcast::session {
@@ -25,6 +27,7 @@ Result<PersonBook::Arrival> PersonBook::enter(std::uint32_t person, Record& reco
     auto token = randomName(kTokenBytes);
     if (!token) return token.error();
     record.tokenHash = hashOf(*token);
+    byHash_[record.tokenHash] = person;
     record.visit = ++lastVisit_;
     record.replaced = std::move(replaced);
     record.until = TimePoint::max();
@@ -37,24 +40,43 @@ Result<PersonBook::Arrival> PersonBook::enter(std::uint32_t person, Record& reco
 
 Result<PersonBook::Arrival> PersonBook::arrive(std::string name, std::function<void()> replaced) {
     const std::lock_guard lock{mutex_};
+    if (records_.size() >= mostPeople_) makeRoom();
     const std::uint32_t person = ++lastPerson_;
     Record& record = records_[person];
     record.name = nameOf(person, std::move(name));
-    return enter(person, record, std::move(replaced));
+    auto arrival = enter(person, record, std::move(replaced));
+    if (!arrival) records_.erase(person);
+    return arrival;
 }
 
 Result<PersonBook::Arrival> PersonBook::resume(const std::string& token,
                                                std::function<void()> replaced, TimePoint now) {
     const std::lock_guard lock{mutex_};
     // Looked up by a keyed hash: how long that takes tells nothing of other tokens.
-    const auto found = std::ranges::find(records_, hashOf(token),
-                                         [](const auto& one) { return one.second.tokenHash; });
+    const std::string hash = hashOf(token);
+    const auto known = byHash_.find(hash);
+    const auto found = known == byHash_.end() ? records_.end() : records_.find(known->second);
     if (found == records_.end() || found->second.until <= now) {
         return fail(ErrorCode::kInvalidArgument,
                     "the resume token is unknown, was used already, or is too old", "hello.resume");
     }
-    if (found->second.replaced) found->second.replaced();
-    return enter(found->first, found->second, std::move(replaced));
+    Record& record = found->second;
+    // Only the token that came back and the one that is made now are good from here on.
+    const std::string other = hash == record.tokenHash ? record.usedHash : record.tokenHash;
+    const auto replacedBefore = record.replaced;
+    auto arrival = enter(found->first, record, std::move(replaced));
+    if (!arrival) return arrival;
+    byHash_.erase(other);
+    record.usedHash = hash;
+    if (replacedBefore) replacedBefore();
+    return arrival;
+}
+
+void PersonBook::welcomed(std::uint32_t person, std::uint64_t visit) {
+    const std::lock_guard lock{mutex_};
+    const auto found = records_.find(person);
+    if (found == records_.end() || found->second.visit != visit) return;  // Went on elsewhere.
+    byHash_.erase(std::exchange(found->second.usedHash, {}));
 }
 
 void PersonBook::lost(std::uint32_t person, std::uint64_t visit, TimePoint until) {
@@ -98,14 +120,38 @@ void PersonBook::restore(std::uint32_t person, const std::string& name,
     lastPerson_ = std::max(lastPerson_, person);
     Record& record = records_[person];
     record.name = name;
+    byHash_.erase(record.tokenHash);
     record.tokenHash = tokenHash;
+    byHash_[tokenHash] = person;
     record.views[number] = view;
     record.until = until;
 }
 
+std::size_t PersonBook::size() const {
+    const std::lock_guard lock{mutex_};
+    return records_.size();
+}
+
 void PersonBook::expire(TimePoint now) {
     const std::lock_guard lock{mutex_};
-    std::erase_if(records_, [now](const auto& one) { return one.second.until <= now; });
+    for (auto one = records_.begin(); one != records_.end();) {
+        one = one->second.until <= now ? erase(one) : std::next(one);
+    }
+}
+
+void PersonBook::makeRoom() {
+    // Who is connected has no `until` yet and is never less.
+    const auto first = std::ranges::min_element(records_, {}, [](const auto& one) {
+        const bool away = one.second.until != TimePoint::max();
+        return std::tuple{!away, !one.second.views.empty(), one.second.until};
+    });
+    if (first != records_.end() && first->second.until != TimePoint::max()) erase(first);
+}
+
+PersonBook::Records::iterator PersonBook::erase(Records::iterator record) {
+    byHash_.erase(record->second.tokenHash);
+    byHash_.erase(record->second.usedHash);
+    return records_.erase(record);
 }
 
 }  // namespace volcast::session

@@ -70,6 +70,9 @@ void Session::receive(std::span<const std::byte> bytes, Form form, TimePoint now
         if (!greeted_) end({kPolicyViolation, "malformed hello"});
         return;
     }
+    if (greeted_ && !std::exchange(answered_, true)) {
+        shared_.views.people().welcomed(who_.person, who_.visit);
+    }
     if (message->has_hello()) return hello(message->hello());
     if (!greeted_) {
         send(errorMessage(v1::ERROR_CODE_UNEXPECTED_MESSAGE, "the first message must be hello"));
@@ -167,15 +170,16 @@ bool Session::identify(const v1::Hello& message) {
 }
 
 void Session::takeAccess(const std::string& token) {
-    if (shared_.uploads == nullptr) return;
-    mayUpload_ = !shared_.uploads->limits().needToken;
-    if (mayUpload_ || token.empty()) return;
-    const auto access = shared_.views.access(token);
-    if (access) {
-        mayUpload_ = access->role == v1::ROLE_CONTROL;
-        return;
+    mayChangeServer_ = shared_.uploads == nullptr || !shared_.uploads->limits().needToken;
+    if (!mayChangeServer_ && !token.empty()) {
+        const auto access = shared_.views.access(token);
+        if (!access) {
+            send(errorMessage(v1::ERROR_CODE_NOT_PERMITTED, access.error().message, {},
+                              "hello.access"));
+        }
+        mayChangeServer_ = access && access->role == v1::ROLE_CONTROL;
     }
-    send(errorMessage(v1::ERROR_CODE_NOT_PERMITTED, access.error().message, {}, "hello.access"));
+    mayUpload_ = shared_.uploads != nullptr && mayChangeServer_;
 }
 
 void Session::welcome() {

@@ -117,6 +117,7 @@ private:
     void pick(const v1::Pick& message);
     void describeShader(const v1::DescribeShader& message);
     void injectFault(const v1::InjectFault& message);
+    [[nodiscard]] std::optional<Error> whyNotInjecting(const Seat& seat) const;
 
     void datasetChanged(const v1::DatasetInfo& info);
     void send(const v1::ServerMessage& message);
@@ -131,7 +132,9 @@ private:
     TimePoint created_ = Clock::now();
     std::uint64_t subscription_ = 0;
     bool greeted_ = false;
-    PersonBook::Arrival who_;  ///< Once greeted.
+    bool answered_ = false;         ///< Something came behind the hello.
+    PersonBook::Arrival who_;       ///< Once greeted.
+    bool mayChangeServer_ = false;  ///< Brought a token of ROLE_CONTROL, or none is asked for.
     bool mayUpload_ = false;
     bool resumed_ = false;
     Form form_ = Form::kBinary;

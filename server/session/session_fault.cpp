@@ -5,6 +5,21 @@
 
 namespace volcast::session {
 
+std::optional<Error> Session::whyNotInjecting(const Seat& seat) const {
+    if (!mayChangeServer_) {
+        return fail(ErrorCode::kInvalidArgument,
+                    "this server asks for tokens (--uploads-need-token): faults need an access "
+                    "token of ROLE_CONTROL in the hello",
+                    "hello.access");
+    }
+    // Who may share a view is who may steer it.
+    if (!seat.view->whyNotSharing(seat.viewer).empty()) {
+        return fail(ErrorCode::kInvalidArgument,
+                    "you have ROLE_WATCH in this view; faults need ROLE_CONTROL", "view");
+    }
+    return std::nullopt;
+}
+
 void Session::injectFault(const v1::InjectFault& message) {
     const ErrorContext about{.view = message.view()};
     if (shared_.faults == nullptr) {
@@ -13,6 +28,10 @@ void Session::injectFault(const v1::InjectFault& message) {
     }
     const Seat* seat = findOrRefuse(message.view(), 0);
     if (seat == nullptr) return;
+    if (const auto refused = whyNotInjecting(*seat)) {
+        return send(
+            errorMessage(v1::ERROR_CODE_NOT_PERMITTED, refused->message, about, refused->field));
+    }
     const auto fault = worker::parseFault(message.fault());
     if (!fault) {
         return send(

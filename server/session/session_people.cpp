@@ -50,9 +50,11 @@ void Session::comeBack(const std::map<std::uint32_t, std::string>& views) {
             continue;
         }
         shared_.views.people().closed(who_.person, number);
-        send(errorMessage(v1::ERROR_CODE_NOT_FOUND,
-                          "view " + std::to_string(number) + " has ended meanwhile",
-                          {.view = number}));
+        const std::string why =
+            view ? "your place in view " + std::to_string(number) +
+                       " went to somebody else: the view was full (--max-people) and you were away"
+                 : "view " + std::to_string(number) + " has ended meanwhile";
+        send(errorMessage(v1::ERROR_CODE_NOT_FOUND, why, {.view = number}));
     }
 }
 

@@ -79,8 +79,8 @@ std::vector<SavedView> StateFolder::load() const {
     std::error_code error;
     for (const auto& entry : fs::directory_iterator{path_, error}) {
         const std::string name = entry.path().filename().string();
-        // A write that a crash cut off; the key.
-        if (name.ends_with(kTemporary) || name == kKeyFile) continue;
+        // A write that a crash cut off; the key, or one that a crash cut off.
+        if (name.ends_with(kTemporary) || name.starts_with(kKeyFile)) continue;
         auto view = name.ends_with(kSuffix)
                         ? read(entry.path())
                         : Result<SavedView>{fail(ErrorCode::kInvalidArgument, "not a saved view")};
@@ -95,8 +95,9 @@ std::vector<SavedView> StateFolder::load() const {
     return views;
 }
 
-void StateFolder::begin(Source source) {
+void StateFolder::begin(Source source, std::chrono::milliseconds retry) {
     source_ = std::move(source);
+    retry_ = retry;
     thread_ = std::thread{[this] { work(); }};
 }
 
@@ -110,27 +111,41 @@ void StateFolder::changed(const std::string& id) {
 
 void StateFolder::work() {
     std::unique_lock lock{mutex_};
+    const auto due = [this] { return stopping_ || !changed_.empty(); };
     while (true) {
-        wake_.wait(lock, [this] { return stopping_ || !changed_.empty(); });
+        if (failed_.empty()) {
+            wake_.wait(lock, due);
+        } else {
+            wake_.wait_for(lock, retry_, due);
+        }
         if (!stopping_) wake_.wait_for(lock, kGather, [this] { return stopping_; });
-        const auto ids = std::exchange(changed_, {});
+        const bool last = stopping_;
+        auto ids = std::exchange(changed_, {});
         lock.unlock();
-        for (const std::string& id : ids) write(id);
+        ids.insert(failed_.begin(), failed_.end());
+        writeAll(ids);
         lock.lock();
-        if (stopping_ && changed_.empty()) return;
+        if (last && changed_.empty()) return;
     }
 }
 
-void StateFolder::write(const std::string& id) {
+void StateFolder::writeAll(const std::set<std::string>& ids) {
+    for (const std::string& id : ids) {
+        if (write(id)) {
+            if (failed_.erase(id) > 0) spdlog::info("event=state_saved_at_last view={}", id);
+        } else if (failed_.insert(id).second) {
+            spdlog::error(R"(event=state_not_saved file="{}/{}" error="{}")", path_, id + kSuffix,
+                          std::strerror(errno));
+        }
+    }
+}
+
+bool StateFolder::write(const std::string& id) const {
     const std::string name = id + kSuffix;
     const auto view = source_(id);
-    if (!view) {
-        if (::unlinkat(folder_.get(), name.c_str(), 0) == 0) ::fsync(folder_.get());
-        return;
-    }
-    if (replace(name, toJson(*view))) return;
-    spdlog::error(R"(event=state_not_saved file="{}/{}" error="{}")", path_, name,
-                  std::strerror(errno));
+    if (view) return replace(name, toJson(*view));
+    if (::unlinkat(folder_.get(), name.c_str(), 0) != 0) return errno == ENOENT;
+    return ::fsync(folder_.get()) == 0;
 }
 
 bool StateFolder::replace(const std::string& name, const std::string& text) const {

@@ -36,6 +36,7 @@ void Thumbnails::stop() {
         if (std::exchange(stopped_, true)) return;
         waiting_.clear();
         current_.reset();
+        hold_ = {};
     }
     router_.remove(view_);
     render_.dropView(view_);
@@ -58,6 +59,7 @@ std::optional<workers::RenderRequest> Thumbnails::next() {
     while (!current_ && !waiting_.empty() && !stopped_) {
         const std::string id = std::move(waiting_.front());
         waiting_.pop_front();
+        hold_ = catalogue_.hold({id});
         const DatasetStanding standing = catalogue_.standing(id);
         const Version version{id, standing.version};
         if (!standing.loaded || failed_.contains(version)) continue;
@@ -65,6 +67,7 @@ std::optional<workers::RenderRequest> Thumbnails::next() {
         tries_ = 0;
         return request();
     }
+    if (!current_) hold_ = {};
     return std::nullopt;
 }
 

@@ -55,6 +55,7 @@ private:
     std::mutex mutex_;
     std::deque<std::string> waiting_;
     std::optional<Version> current_;
+    DatasetHold hold_;          ///< Of the current one.
     std::set<Version> failed_;  ///< A picture that costs workers is not tried twice.
     std::uint64_t tag_ = 0;
     int tries_ = 0;

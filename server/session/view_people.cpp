@@ -6,13 +6,20 @@
 namespace volcast::session {
 
 void ViewPeople::add(ViewerId id, Member member) {
-    // Who has the view open twice may do the same in both.
-    const bool controls = std::ranges::any_of(members_, [&member](const auto& one) {
-        return one.second.person == member.person && one.second.role == v1::ROLE_CONTROL;
-    });
-    if (controls) member.role = v1::ROLE_CONTROL;
+    const std::uint32_t person = member.person;
     members_.insert_or_assign(id, std::move(member));
+    // Who has the view open twice may do the same in both, whichever came first.
+    const bool controls = std::ranges::any_of(members_, [person](const auto& one) {
+        return one.second.person == person && one.second.role == v1::ROLE_CONTROL;
+    });
+    if (controls) letControl(person);
     fill();
+}
+
+void ViewPeople::letControl(std::uint32_t person) {
+    for (auto& [id, member] : members_) {
+        if (member.person == person) member.role = v1::ROLE_CONTROL;
+    }
 }
 
 void ViewPeople::remove(ViewerId id) {
@@ -31,7 +38,13 @@ void ViewPeople::fill() {
 
 void ViewPeople::giveTo(ViewerId id) {
     steers_ = id;
-    members_.at(id).asks = false;
+    askNoMore(members_.at(id).person);
+}
+
+void ViewPeople::askNoMore(std::uint32_t person) {
+    for (auto& [id, member] : members_) {
+        if (member.person == person) member.asks = false;
+    }
 }
 
 std::optional<ViewerId> ViewPeople::find(std::uint32_t person, std::uint32_t number) const {
@@ -91,20 +104,33 @@ std::string ViewPeople::take(ViewerId id) {
 }
 
 std::string ViewPeople::ask(ViewerId id, bool withdraw) {
-    if (steers_ == id && !withdraw) return "you steer this view already";
-    members_.at(id).asks = !withdraw;
+    const std::uint32_t person = members_.at(id).person;
+    if (withdraw) {
+        askNoMore(person);
+        return {};
+    }
+    const auto steers = members_.find(steers_);
+    if (steers != members_.end() && steers->second.person == person) {
+        return "you steer this view already";
+    }
+    members_.at(id).asks = true;
     return {};
 }
 
 std::string ViewPeople::handOver(ViewerId from, std::uint32_t person) {
     if (std::string why = whyNotSteering(from); !why.empty()) return why;
-    for (auto& [id, member] : members_) {
+    const Member* away = nullptr;
+    for (const auto& [id, member] : members_) {
         if (member.person != person) continue;
-        if (member.awayUntil) return member.name + " is away";
-        member.role = v1::ROLE_CONTROL;
+        if (member.awayUntil) {
+            away = &member;
+            continue;
+        }
+        letControl(person);
         giveTo(id);
         return {};
     }
+    if (away != nullptr) return away->name + " is away";
     return "nobody in this view has the number " + std::to_string(person);
 }
 

@@ -64,6 +64,9 @@ private:
     /// Somebody who is here and may steer does, where nobody does.
     void fill();
     void giveTo(ViewerId id);
+    // In all places of the person.
+    void letControl(std::uint32_t person);
+    void askNoMore(std::uint32_t person);
 
     std::map<ViewerId, Member> members_;
     ViewerId steers_ = 0;  ///< 0: nobody.

@@ -116,16 +116,18 @@ Result<scene::Scene> ViewScene::resolve(const Waiting& next) const {
 }
 
 Result<SceneChange> ViewScene::accept(Waiting next) {
+    const DatasetHold held = catalogue_.hold(next.datasets());  // From before it is asked for.
     const auto loaded = require(next);
     if (!loaded) return loaded.error();
     if (!*loaded) {
         waiting_ = std::move(next);
+        hold();
         return SceneChange::kWaiting;
     }
     auto scene = resolve(next);
     if (!scene) return scene.error();
-    take(std::move(*scene));
     waiting_.reset();
+    take(std::move(*scene));
     return SceneChange::kDraw;
 }
 
@@ -205,7 +207,10 @@ Result<SceneChange> ViewScene::datasetChanged(const std::string& id) {
         if (catalogue_.summaries(needed).size() < needed.size()) return SceneChange::kNone;
         auto scene = resolve(*waiting_);
         waiting_.reset();
-        if (!scene) return scene.error();
+        if (!scene) {
+            hold();
+            return scene.error();
+        }
         take(std::move(*scene));
         return SceneChange::kDraw;
     }
@@ -221,6 +226,15 @@ void ViewScene::take(scene::Scene scene) {
     scene_ = std::move(scene);
     seenVersion_ = dataVersion();
     isGood_ = false;
+    hold();
+}
+
+void ViewScene::hold() {
+    std::vector<std::string> all = datasets();
+    for (const auto* scene : {&good_, &other_}) {
+        if (*scene) std::ranges::copy(datasetsOf(**scene), std::back_inserter(all));
+    }
+    hold_ = catalogue_.hold(std::move(all));
 }
 
 void ViewScene::drawn(std::uint64_t seq) {
@@ -228,6 +242,7 @@ void ViewScene::drawn(std::uint64_t seq) {
     if (good_ && codesOf(*good_) != codesOf(*scene_)) other_ = std::move(good_);
     good_ = scene_;
     isGood_ = true;
+    hold();
 }
 
 std::optional<std::uint64_t> ViewScene::revert() {
@@ -239,6 +254,7 @@ std::optional<std::uint64_t> ViewScene::revert() {
     scene_ = good_;
     scene_->camera = camera;
     isGood_ = true;
+    hold();
     return sceneSeq_;
 }
 

@@ -83,6 +83,8 @@ private:
     Result<bool> require(const Waiting& next);
     Result<scene::Scene> resolve(const Waiting& next) const;
     void take(scene::Scene scene);
+    /// Holds the data of all scenes that may be shown without being asked for again.
+    void hold();
     /// Takes `next` as the scene, or lets it wait.
     Result<SceneChange> accept(Waiting next);
 
@@ -93,6 +95,7 @@ private:
     bool isGood_ = false;                ///< That is scene_, the camera aside.
     std::uint64_t sceneSeq_ = 0;         ///< Input that brought scene_.
     std::optional<Waiting> waiting_;
+    DatasetHold hold_;
     std::uint64_t inputSeq_ = 0;
     std::uint64_t seenVersion_ = 0;  ///< dataVersion() when scene_ last changed or was drawn anew.
 };

@@ -166,7 +166,8 @@ TEST(Faults, AreRefusedByAServerThatWasNotToldToAllowThem) {
 TEST(Faults, WithAnUnknownNameOrViewAreRefusedByName) {
     const FaultStage stage{kFaulty};
     ASSERT_TRUE(stage.server->ready()) << stage.server->log();
-    EXPECT_THAT(stage.server->log(), HasSubstr("any client may let workers and imports fail"));
+    EXPECT_THAT(stage.server->log(),
+                HasSubstr("who may steer a view may let workers and imports fail"));
     const Looker looker{stage.server->port(), TestClient::Form::kJson};
     ASSERT_TRUE(looker.before) << stage.server->log();
     inject(*looker.client, "earthquake");

@@ -130,6 +130,10 @@ TEST_F(People, ALostConnectionGoesOnWhereItWas) {
     ASSERT_TRUE(frame.has_value()) << server().log();
     EXPECT_EQ(frame->header.width(), 80U);
     EXPECT_EQ(frame->prefix.sequence, 1U);
+    v1::ClientMessage ping;
+    ping.mutable_ping()->set_token(1);
+    back->send(ping);  // Shows that the welcome came.
+    ASSERT_TRUE(back->waitFor([](const auto& one) { return one.has_pong(); }).has_value());
     const auto replay = clientOf(port(), named("", token));
     const auto refused = replay->waitForError();
     ASSERT_TRUE(refused.has_value());

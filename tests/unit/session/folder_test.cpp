@@ -1,6 +1,9 @@
 #include <filesystem>
 #include <fstream>
 #include <optional>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/un.h>
 #include <unistd.h>
 
 #include <gmock/gmock.h>
@@ -67,6 +70,42 @@ TEST_F(Folder, LinksThatLeadOutAreNotListed) {
     fs::create_symlink("inside.vtu", data / "fine.vtu");
     fs::create_directory_symlink(base, data / "up");
     EXPECT_THAT(ids(), ElementsAre("fine.vtu", "inside.vtu"));
+}
+
+// Nobody writes to the FIFO: opening it must not wait for that.
+TEST_F(Folder, FifosAndSocketsAreNotListedWhateverTheirNames) {
+    write("file.vtu");
+    ASSERT_EQ(::mkfifo((data / "fifo.vtu").c_str(), 0600), 0);
+    sockaddr_un address{};
+    address.sun_family = AF_UNIX;
+    const std::string path = data / "socket.nrrd";
+    ASSERT_LT(path.size(), sizeof address.sun_path);
+    path.copy(address.sun_path, path.size());
+    const base::FileDescriptor socket{::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0)};
+    ASSERT_EQ(::bind(socket.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
+    EXPECT_THAT(ids(), ElementsAre("file.vtu"));
+    const auto root = openFolder(data);
+    ASSERT_TRUE(root.has_value());
+    EXPECT_TRUE(openBeneath(*root, "fifo.vtu", Links::kRefuse).has_value());
+    const auto refused = openBeneath(*root, "socket.nrrd", Links::kFollowInside);
+    ASSERT_FALSE(refused.has_value());
+    EXPECT_EQ(refused.error().code, ErrorCode::kNotFound);
+}
+
+TEST_F(Folder, NamesThatNoFileCanHaveAreAbsent) {
+    write("file");
+    const auto root = openFolder(data);
+    ASSERT_TRUE(root.has_value());
+    using namespace std::string_literals;
+    const std::string longName(300, 'a'), longPath = std::string(5000, '.') + "/file";
+    for (const std::string& path : {"file\0"s, "file\0.vtu"s, "\0"s, "folder\0/file"s, longName,
+                                    longName + "/file", longPath}) {
+        for (const Links links : {Links::kFollowInside, Links::kRefuse}) {
+            const auto file = openBeneath(*root, path, links);
+            ASSERT_FALSE(file.has_value()) << path;
+            EXPECT_EQ(file.error().code, ErrorCode::kNotFound) << file.error().message;
+        }
+    }
 }
 
 TEST_F(Folder, TheSignatureFollowsTheFileAndItsCompanions) {

@@ -1,7 +1,13 @@
 #include "server/session/link.h"
 
+#include <csignal>
+#include <filesystem>
 #include <fstream>
+#include <iterator>
+#include <sys/resource.h>
 #include <sys/stat.h>
+#include <thread>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -116,6 +122,44 @@ TEST(LinkKey, AFileIsMadeOnceForItsOwnerAndReadAgain) {
     const auto open = LinkKey::fromFile(path);
     ASSERT_FALSE(open.has_value());
     EXPECT_NE(open.error().message.find("chmod 600"), std::string::npos) << open.error().message;
+}
+
+// What is there is never overwritten, and nothing else is left in the folder.
+TEST(LinkKey, OfSeveralMadeAtOnceOneStaysAndAllHaveIt) {
+    const support::TemporaryFolder folder;
+    const std::string path = (folder.path() / "key").string();
+    std::vector<LinkKey::Signature> signatures(8);
+    std::vector<std::thread> threads;
+    for (LinkKey::Signature& signature : signatures) {
+        threads.emplace_back([&] {
+            const auto key = LinkKey::fromFile(path);
+            if (key) signature = key->sign("link", "x");
+        });
+    }
+    for (std::thread& thread : threads) thread.join();
+    const auto kept = LinkKey::fromFile(path);
+    ASSERT_TRUE(kept.has_value()) << kept.error().message;
+    for (const LinkKey::Signature& one : signatures) EXPECT_EQ(one, kept->sign("link", "x"));
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator{folder.path()}, {}), 1);
+}
+
+// A disk on which nothing can be written, until something can.
+TEST(LinkKey, AWriteThatFailsLeavesNothingThatALaterStartTrips) {
+    const support::TemporaryFolder folder;
+    const std::string path = (folder.path() / "key").string();
+    rlimit before{};
+    ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
+    const auto ignored = std::signal(SIGXFSZ, SIG_IGN);
+    const rlimit small{.rlim_cur = 10, .rlim_max = before.rlim_max};  // Bytes: less than a key.
+    ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
+    const auto refused = LinkKey::fromFile(path);
+    ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &before), 0);
+    std::signal(SIGXFSZ, ignored);
+    ASSERT_FALSE(refused.has_value());
+    EXPECT_EQ(refused.error().code, ErrorCode::kIo);
+    EXPECT_EQ(refused.error().message.find(path), 0U) << refused.error().message;
+    EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+    EXPECT_TRUE(LinkKey::fromFile(path).has_value());
 }
 
 TEST(LinkKey, WhatIsNoKeyIsRefused) {

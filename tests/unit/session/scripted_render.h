@@ -15,7 +15,10 @@ namespace volcast::session::test {
 class ScriptedRender final : public workers::RenderService {
 public:
     void addDataset(const std::string&, base::FileDescriptor) override {}
-    void removeDataset(const std::string&) override {}
+    void removeDataset(const std::string& id) override {
+        const std::lock_guard lock{mutex};
+        removed.push_back(id);
+    }
     void submit(workers::RenderRequest request) override {
         const std::lock_guard lock{mutex};
         requests.push_back(std::move(request));
@@ -55,6 +58,7 @@ public:
     std::vector<workers::MeasureRequest> measures;
     std::vector<workers::PickRequest> picks;
     std::vector<std::uint64_t> stopped, dropped;
+    std::vector<std::string> removed;
 };
 
 /// The picture that `request` asks for, black.

@@ -41,6 +41,7 @@ TEST_F(SessionPeople, AResumeTokenIsGoodOnce) {
     const auto back = server.client();
     back->hello({}, welcome.resume());
     ASSERT_TRUE(back->wait(hasWelcome)->welcome().resumed());
+    back->setName("Ann");  // Any message shows that the welcome with the next token came.
     const auto thief = server.client();
     thief->hello("Thief", welcome.resume());
     const auto refused = thief->error();
@@ -49,6 +50,56 @@ TEST_F(SessionPeople, AResumeTokenIsGoodOnce) {
     EXPECT_EQ(refused->field(), "hello.resume");
     EXPECT_FALSE(thief->wait(hasWelcome)->welcome().resumed());
     EXPECT_FALSE(back->session->closing().has_value()) << "a replay ends nobody's connection";
+}
+
+TEST_F(SessionPeople, WhoseWelcomeWasLostComesBackWithTheSameToken) {
+    ann.reset();
+    const auto lost = server.client();
+    lost->hello({}, welcome.resume());  // Its welcome is never read.
+    const auto back = server.client();
+    back->hello({}, welcome.resume());
+    const auto again = back->wait(hasWelcome);
+    ASSERT_TRUE(again->welcome().resumed());
+    EXPECT_EQ(again->welcome().person(), welcome.person());
+    ASSERT_TRUE(back->wait(hasOpened).has_value());
+    for (int i = 0; i < 100 && !lost->session->closing(); ++i) lost->run();
+    ASSERT_TRUE(lost->session->closing().has_value()) << "two connections hold one person";
+    EXPECT_EQ(lost->session->closing()->code, 4001);
+    back->look(2, 3.0);
+    back->undo();
+    EXPECT_TRUE(back->sceneChanged().has_value()) << "it does not steer";
+    const auto thief = server.client();
+    thief->hello("Thief", welcome.resume());
+    EXPECT_FALSE(thief->wait(hasWelcome)->welcome().resumed());
+}
+
+TEST_F(SessionPeople, WhosePlaceWasTakenOrWhoseViewEndedIsToldWhich) {
+    const auto hello = [&](const std::string& name, const std::string& resume = {}) {
+        auto client = server.client();
+        client->hello(name, resume);
+        return client;
+    };
+    auto ben = hello("Ben");
+    const std::string token = ben->wait(hasWelcome)->welcome().resume();
+    ben->openView(ann->share(v1::ROLE_WATCH));
+    ASSERT_TRUE(ben->wait(hasOpened).has_value());
+    ben->openView({}, 2);
+    ASSERT_TRUE(ben->wait(hasOpened).has_value());
+    ben.reset();
+    const auto cy = join("Cy", v1::ROLE_WATCH), di = join("Di", v1::ROLE_WATCH),
+               ed = join("Ed", v1::ROLE_WATCH);        // Four may be in it.
+    for (std::uint32_t view = 2; view <= 3; ++view) {  // Three may be open.
+        ann->openView({}, view);
+        ASSERT_TRUE(ann->wait(hasOpened).has_value());
+    }
+    ben = hello({}, token);
+    ASSERT_TRUE(ben->wait(hasWelcome)->welcome().resumed());
+    const auto full = ben->error(), ended = ben->error();
+    ASSERT_TRUE(full && ended);
+    EXPECT_EQ(full->view(), 1U);
+    EXPECT_NE(full->message().find("full (--max-people)"), std::string::npos) << full->message();
+    EXPECT_EQ(ended->view(), 2U);
+    EXPECT_EQ(ended->message(), "view 2 has ended meanwhile");
 }
 
 // A network that went away without a word: the server still holds the old connection.

@@ -1,7 +1,10 @@
 #include "server/session/state_folder.h"
 
+#include <condition_variable>
 #include <filesystem>
 #include <fstream>
+#include <map>
+#include <mutex>
 
 #include <gtest/gtest.h>
 
@@ -104,6 +107,73 @@ TEST(StateFolder, KeepsTheNewestOfAViewAndForgetsOneThatEnded) {
     EXPECT_TRUE(fs::exists(path + "/two.view.json"));
 }
 
+/// Counts the views that are asked for.
+struct CountedSource {
+    std::optional<SavedView> operator()(const std::string& id) {
+        const std::lock_guard lock{mutex};
+        ++asked[id];
+        came.notify_all();
+        return exampleView(id);
+    }
+    void wait(const std::string& id, int count) {
+        std::unique_lock lock{mutex};
+        EXPECT_TRUE(came.wait_for(lock, std::chrono::seconds{30}, [&] {
+            return asked[id] >= count;
+        })) << id;
+    }
+    std::mutex mutex;
+    std::condition_variable came;
+    std::map<std::string, int> asked;
+};
+
+// A folder in the place of the temporary file: the view cannot be written, whoever tries.
+TEST(StateFolder, WhatCouldNotBeWrittenIsTriedAgainUntilItCan) {
+    const support::TemporaryFolder folder;
+    const fs::path file = folder.path() / "one.view.json", block = folder.path() / "one.view.tmp";
+    fs::create_directory(block);
+    CountedSource source;
+    const auto state = StateFolder::create(folder.path().string());
+    ASSERT_TRUE(state.has_value());
+    (*state)->begin([&](const std::string& id) { return source(id); },
+                    std::chrono::milliseconds{1});
+    (*state)->changed("one");
+    source.wait("one", 3);  // Nobody said again that it changed.
+    EXPECT_FALSE(fs::exists(file));
+    fs::remove(block);
+    (*state)->changed("two");
+    source.wait("two", 1);  // Written after "one" was.
+    EXPECT_TRUE(fs::exists(file));
+}
+
+TEST(StateFolder, TheEndTriesOnceMoreWhatCouldNotBeWritten) {
+    const support::TemporaryFolder folder;
+    const fs::path file = folder.path() / "one.view.json", block = folder.path() / "one.view.tmp";
+    fs::create_directory(block);
+    CountedSource source;
+    {
+        const auto state = StateFolder::create(folder.path().string());
+        ASSERT_TRUE(state.has_value());
+        (*state)->begin([&](const std::string& id) { return source(id); }, std::chrono::hours{1});
+        for (const char* id : {"one", "two"}) (*state)->changed(id);
+        source.wait("two", 1);  // Written after "one" was not.
+        fs::remove(block);
+    }
+    EXPECT_TRUE(fs::exists(file));
+    EXPECT_EQ(source.asked["two"], 1) << "what is written is not written again";
+}
+
+TEST(StateFolder, TheEndDoesNotWaitForAFolderThatStaysFull) {
+    const support::TemporaryFolder folder;
+    fs::create_directory(folder.path() / "one.view.tmp");
+    CountedSource source;
+    const auto state = StateFolder::create(folder.path().string());
+    ASSERT_TRUE(state.has_value());
+    (*state)->begin([&](const std::string& id) { return source(id); });
+    (*state)->changed("one");
+    (*state)->finish();
+    EXPECT_GE(source.asked["one"], 1);
+}
+
 TEST(StateFolder, WhatIsDamagedOrForeignIsSkippedAndLeftAlone) {
     const support::TemporaryFolder folder;
     const auto put = [&](const std::string& name, const std::string& text) {
@@ -116,6 +186,7 @@ TEST(StateFolder, WhatIsDamagedOrForeignIsSkippedAndLeftAlone) {
     put("notes.txt", "mine");
     put("half.view.tmp", "{");
     put("link.key", "key");
+    put("link.key.Ab-_12.tmp", "half a k");
     fs::create_directory(folder.path() / "folder.view.json");
     fs::create_symlink(folder.path() / "good.view.json", folder.path() / "linked.view.json");
     const auto state = StateFolder::create(folder.path().string());
@@ -125,7 +196,7 @@ TEST(StateFolder, WhatIsDamagedOrForeignIsSkippedAndLeftAlone) {
     EXPECT_EQ(views[0].id, "good");
     std::size_t files = 0;
     for (const auto& entry : fs::directory_iterator{folder.path()}) files += entry.exists() ? 1 : 0;
-    EXPECT_EQ(files, 9U);
+    EXPECT_EQ(files, 10U);
 }
 
 TEST(StateFolder, AFolderThatCannotBeIsAnErrorThatNamesIt) {

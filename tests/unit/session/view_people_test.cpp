@@ -39,6 +39,44 @@ TEST_F(ViewPeopleTest, WhoHasTheViewTwiceMayDoTheSameInBothAndSteersInOne) {
     EXPECT_NE(people.take(5), "") << "a watcher twice is a watcher";
 }
 
+TEST_F(ViewPeopleTest, AWatcherWhoAddsALinkToControlMaySteerFromTheFirstPlaceToo) {
+    EXPECT_NE(people.take(3), "");
+    people.add(4, {.person = 13, .name = "Cy", .role = v1::ROLE_CONTROL, .number = 2});
+    for (const ViewerId place : {3U, 4U}) EXPECT_EQ(people.at(place).role, v1::ROLE_CONTROL);
+    EXPECT_EQ(people.take(3), "");
+    EXPECT_TRUE(people.steers(3));
+}
+
+TEST_F(ViewPeopleTest, WhoIsHandedControlMaySteerFromEachPlaceAndAsksInNone) {
+    people.add(4, {.person = 13, .name = "Cy", .role = v1::ROLE_WATCH, .number = 2});
+    EXPECT_EQ(people.ask(4, false), "");
+    EXPECT_EQ(people.handOver(1, 13), "");
+    EXPECT_TRUE(people.steers(3));
+    for (const ViewerId place : {3U, 4U}) {
+        EXPECT_EQ(people.at(place).role, v1::ROLE_CONTROL) << place;
+        EXPECT_FALSE(people.at(place).asks) << place;
+    }
+    EXPECT_NE(people.ask(4, false), "") << "steers from the other place";
+    EXPECT_EQ(people.take(4), "");
+}
+
+TEST_F(ViewPeopleTest, WhoAsksFromTwoPlacesWithdrawsOrSteersForBoth) {
+    people.add(4, {.person = 12, .name = "Ben", .role = v1::ROLE_CONTROL, .number = 2});
+    for (const ViewerId place : {2U, 4U}) EXPECT_EQ(people.ask(place, false), "");
+    EXPECT_EQ(people.ask(4, true), "");
+    EXPECT_FALSE(people.at(2).asks);
+    EXPECT_EQ(people.ask(2, false), "");
+    EXPECT_EQ(people.take(4), "");
+    EXPECT_FALSE(people.at(2).asks);
+}
+
+TEST_F(ViewPeopleTest, ControlIsHandedToThePlaceOfAPersonThatIsNotAway) {
+    people.add(4, {.person = 13, .name = "Cy", .role = v1::ROLE_WATCH, .number = 2});
+    people.away(3, now);
+    EXPECT_EQ(people.handOver(1, 13), "");
+    EXPECT_TRUE(people.steers(4));
+}
+
 TEST_F(ViewPeopleTest, OnlyWhoSteersHandsOverAndAWatcherMaySteerByIt) {
     EXPECT_NE(people.handOver(2, 12), "");
     EXPECT_NE(people.handOver(3, 13), "");
