@@ -44,6 +44,12 @@ def give_up_rights(program_fd, parent):
         raise OSError(ctypes.get_errno(), "cannot load the seccomp filter")
 
 
+def memory_limit():
+    """Bytes of memory that this import may use; no file, none in memory either, may be longer."""
+    import resource
+    return resource.getrlimit(resource.RLIMIT_FSIZE)[0]
+
+
 class Sender:
     """Writes records; one method a kind."""
 
