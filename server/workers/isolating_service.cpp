@@ -65,7 +65,8 @@ public:
         auto shared = RenderService::create(settings_, events_);
         if (!shared) return std::move(shared).error();
         shared_ = *std::move(shared);
-        settings_.warmSpare = false;  // Of the views' own workers: one process a view.
+        settings_.warmSpare = false;    // Of the views' own workers: one process a view,
+        settings_.pausesViews = false;  // which costs no other view anything.
         return {};
     }
 
