@@ -13,6 +13,7 @@
 #include <sys/ipc.h>
 #include <sys/mman.h>
 #include <sys/mount.h>
+#include <sys/prctl.h>
 #include <sys/ptrace.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
@@ -64,6 +65,13 @@ long connectTo(sa_family_t family) {
     return result;
 }
 
+/// Sets the signal that the parent's death sends to what it is.
+long keepParentDeathSignal() {
+    int now = 0;
+    ::prctl(PR_GET_PDEATHSIG, &now, 0, 0, 0);
+    return ::prctl(PR_SET_PDEATHSIG, now, 0, 0, 0);
+}
+
 long openIn(const std::string& path, int flags) {
     const int fd = ::open(path.c_str(), flags | O_CLOEXEC, 0600);
     if (fd >= 0) ::close(fd);
@@ -101,6 +109,10 @@ std::vector<Attempt> processes() {
         {"clone of a process", Needs::kSeccomp,
          [] { return unlessChild(call(SYS_clone, SIGCHLD)); }},
         {"clone3", Needs::kSeccomp, [] { return call(SYS_clone3); }},
+        {"leave the process group", Needs::kSeccomp,
+         [] { return call(SYS_setpgid, 0, ::getpgrp()); }},
+        {"leave the session", Needs::kSeccomp, [] { return call(SYS_setsid); }},
+        {"outlive the parent", Needs::kSeccomp, [] { return keepParentDeathSignal(); }},
         {"kill of the parent", Needs::kSeccomp, [=] { return call(SYS_kill, parent, 0); }},
         {"tkill of the parent", Needs::kSeccomp, [=] { return call(SYS_tkill, parent, 0); }},
         {"tgkill of the parent", Needs::kSeccomp,

@@ -10,6 +10,7 @@
 #include <string>
 #include <sys/ioctl.h>
 #include <sys/mman.h>
+#include <sys/prctl.h>
 #include <sys/socket.h>
 #include <sys/syscall.h>
 #include <unistd.h>
@@ -33,10 +34,10 @@ constexpr std::uint32_t kPretendMissing = SCMP_ACT_ERRNO(ENOSYS);
 constexpr std::array kAlwaysRefused{
     // The network; socket pairs stay, see addConditional().
     "socket", "bind", "connect", "listen", "accept", "accept4",
-    // Other processes.
-    "ptrace", "process_vm_readv", "process_vm_writev", "process_madvise", "kcmp", "pidfd_getfd",
-    "process_mrelease", "migrate_pages", "move_pages", "perf_event_open", "shmget", "semget",
-    "msgget", "mq_open",
+    // Other processes, and the group that ends with them.
+    "setpgid", "setsid", "ptrace", "process_vm_readv", "process_vm_writev", "process_madvise",
+    "kcmp", "pidfd_getfd", "process_mrelease", "migrate_pages", "move_pages", "perf_event_open",
+    "shmget", "semget", "msgget", "mq_open",
     // Mounts and namespaces.
     "mount", "umount2", "pivot_root", "chroot", "open_tree", "move_mount", "fsopen", "fsconfig",
     "fsmount", "fspick", "mount_setattr", "unshare", "setns", "name_to_handle_at",
@@ -130,6 +131,9 @@ void addConditional(const Filter& filter, const SeccompRules& rules, Status& sta
         for (const char* name : kProcessCalls) status(refuse(filter, kRefuse, name));
         const auto self = static_cast<std::uint64_t>(rules.ownPid);
         status(refuse(filter, kRefuse, "tgkill", argument(0, SCMP_CMP_NE, self)));
+        // Outliving the parent. A program that is executed asks for the opposite as it begins.
+        status(refuse(filter, kRefuse, "prctl",
+                      argument(0, SCMP_CMP_MASKED_EQ, 0xffffffff, PR_SET_PDEATHSIG)));
     }
     if (!rules.mayUseThreads && !rules.mayExecute) {
         status(refuse(filter, kRefuse, "clone"));

@@ -9,7 +9,7 @@ namespace volcast::base {
 
 /// Which system calls stay beyond the ones that every sandboxed process keeps.
 struct SeccompRules {
-    bool mayExecute = false;  ///< execve, new processes and signals to them.
+    bool mayExecute = false;  ///< execve, new processes and signals to them; PR_SET_PDEATHSIG.
     bool mayUseThreads = true;
     int ownPid = 0;  ///< Where it may not execute: it may signal (abort) itself; 0: nobody.
 };

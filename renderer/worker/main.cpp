@@ -1,12 +1,10 @@
 // volcast-worker: owns one GL context, draws what `volcast` asks for, and trusts nobody.
 #include <chrono>
-#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <fcntl.h>
 #include <span>
 #include <string>
-#include <sys/prctl.h>
 
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
@@ -15,6 +13,7 @@
 #include "renderer/base/printable.h"
 #include "renderer/base/sandbox.h"
 #include "renderer/base/software_gpu.h"
+#include "renderer/base/subordinate.h"
 #include "renderer/gpu/device.h"
 #include "renderer/scene/render.h"
 #include "renderer/shading/assemble.h"
@@ -117,7 +116,7 @@ int serve(const worker::Options& options, Clock::time_point start) {
 int main(int argc, char** argv) {
     const auto start = Clock::now();
     // The channel closes when the server dies; this is for a worker that is busy then.
-    ::prctl(PR_SET_PDEATHSIG, SIGKILL, 0, 0, 0);
+    base::becomeSubordinate();
     try {
         spdlog::set_default_logger(spdlog::stderr_logger_st("worker"));
         spdlog::set_pattern("%Y-%m-%dT%H:%M:%S.%e %l %v worker=%P");

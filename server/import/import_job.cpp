@@ -70,6 +70,7 @@ base::SandboxPolicy policyFor(const data::load::Request& request,
     base::SandboxPolicy policy;
     policy.readable = std::move(datasetPaths);
     policy.maxFileBytes = request.maxMemoryBytes;
+    policy.maxCpuSeconds = request.maxCpuSeconds;
     policy.maxAddressSpaceBytes = request.maxMemoryBytes + ownAddressSpace(request.path);
     if (!data::load::needsPython(request.path)) return policy;
     policy.mayExecute = true;  // Until its reader has started.

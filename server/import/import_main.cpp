@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "renderer/base/subordinate.h"
 #include "server/import/import_job.h"
 
 namespace volcast::import {
@@ -32,6 +33,7 @@ worker::Fault importFault(const std::string& text) {
 }  // namespace
 
 int importMain(int argc, char** argv, data::load::ImageReader readImages) {
+    base::becomeSubordinate();
     CLI::App app{
         "Reads one dataset in a sandbox. Started by volcast, which listens at descriptor 3."};
     data::load::Request request;
@@ -40,6 +42,7 @@ int importMain(int argc, char** argv, data::load::ImageReader readImages) {
     app.add_option("--tetgen-switches", request.tetgenSwitches, "How TetGen fills surfaces");
     app.add_option("--spacing", spacing, "Of the slices of image stacks")->expected(3);
     app.add_option("--max-memory", request.maxMemoryBytes, "In bytes");
+    app.add_option("--max-cpu", request.maxCpuSeconds, "In seconds, of all threads; 0: no limit");
     std::optional<worker::Fault> fault;
     app.add_option_function<std::string>(
         "--fault", [&](const std::string& text) { fault = importFault(text); },

@@ -10,6 +10,7 @@
 #include <unistd.h>
 #include <utility>
 
+#include "renderer/base/subordinate.h"
 #include "renderer/worker/channel.h"
 
 namespace volcast::workers {
@@ -99,7 +100,10 @@ Result<ChildProcess> ChildProcess::spawn(const SpawnDesc& desc) {
     std::vector<std::string> words{desc.program};
     words.insert(words.end(), desc.arguments.begin(), desc.arguments.end());
     const std::vector<char*> arguments = pointers(words);
-    const std::vector<char*> environment = pointers(desc.environment);
+    // First, as the first of two equal names counts.
+    std::vector<std::string> variables{base::kParentVariable + ("=" + std::to_string(::getpid()))};
+    variables.insert(variables.end(), desc.environment.begin(), desc.environment.end());
+    const std::vector<char*> environment = pointers(variables);
     pid_t pid = 0;
     const int error = ::posix_spawn(&pid, desc.program.c_str(), spawn.actions(), spawn.attributes(),
                                     arguments.data(), environment.data());

@@ -13,7 +13,8 @@ namespace volcast::workers {
 struct SpawnDesc {
     std::string program;                   ///< Path of the executable.
     std::vector<std::string> arguments;    ///< Without argv[0].
-    std::vector<std::string> environment;  ///< "NAME=value"; the child gets no other variable.
+    std::vector<std::string> environment;  ///< "NAME=value"; the child gets no other variable
+                                           ///< but base::kParentVariable.
     int channel = -1;                      ///< Becomes worker::kChannelFd in the child; -1: none.
     int output = -1;                       ///< Becomes stdout in the child; -1: /dev/null.
 };

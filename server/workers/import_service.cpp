@@ -6,6 +6,7 @@
 #include <csignal>
 #include <filesystem>
 #include <optional>
+#include <unistd.h>
 #include <utility>
 
 #include "renderer/base/memfd.h"
@@ -36,14 +37,24 @@ std::string number(double value) {
     return {text.data(), end};
 }
 
+/// What all processors together can do until the deadline: an import that goes on past it, for
+/// nobody, ends of itself, and none is ended before.
+std::uint64_t cpuSeconds(const ImportSettings& settings) {
+    const auto deadline = std::chrono::ceil<std::chrono::seconds>(settings.deadline).count();
+    const long processors = std::max(::sysconf(_SC_NPROCESSORS_CONF), 1L);
+    return static_cast<std::uint64_t>(std::max(deadline, decltype(deadline){1})) *
+               static_cast<std::uint64_t>(processors) +
+           1;
+}
+
 SpawnDesc spawnDesc(const ImportRequest& request, const ImportSettings& settings, int channel) {
     return {.program = settings.importPath.empty() ? besideThisProgram("volcast-import")
                                                    : settings.importPath,
             .arguments = {"--tetgen-switches=" + request.tetgenSwitches, "--spacing",
                           number(request.spacing.x), number(request.spacing.y),
                           number(request.spacing.z),
-                          "--max-memory=" + std::to_string(settings.maxMemoryBytes), "--",
-                          request.path},
+                          "--max-memory=" + std::to_string(settings.maxMemoryBytes),
+                          "--max-cpu=" + std::to_string(cpuSeconds(settings)), "--", request.path},
             .environment = inheritedEnvironment({"ASAN_OPTIONS", "TSAN_OPTIONS", "UBSAN_OPTIONS"}),
             .channel = channel};
 }

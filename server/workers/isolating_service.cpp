@@ -35,6 +35,13 @@ struct OwnService {
     std::string viewId = {};
 };
 
+/// What counts only up, and why the last worker went where `status` knows of none.
+void addCounts(RenderStatus& status, const RenderStatus& more) {
+    status.losses += more.losses;
+    status.starts += more.starts;
+    if (status.lastLoss.empty()) status.lastLoss = more.lastLoss;
+}
+
 class IsolatingService final : public RenderService {
 public:
     IsolatingService(RenderSettings settings, RenderEvents events)
@@ -58,7 +65,8 @@ public:
         auto shared = RenderService::create(settings_, events_);
         if (!shared) return std::move(shared).error();
         shared_ = *std::move(shared);
-        settings_.warmSpare = false;  // Of the views' own workers: one process a view.
+        settings_.warmSpare = false;    // Of the views' own workers: one process a view,
+        settings_.pausesViews = false;  // which costs no other view anything.
         return {};
     }
 
@@ -115,14 +123,20 @@ public:
         (isOwn ? own->second->service : shared_)->injectFault(view, fault);
     }
 
-    /// Of the worker that most views share; all that wait.
+    /// Of the worker that most views share; the counts are those of all, of workers that have ended
+    /// as well.
     [[nodiscard]] RenderStatus status() const override {
         RenderStatus status = shared_->status();
         const std::scoped_lock lock{mutex_};
         for (const auto& [view, own] : own_) {
-            if (own->service) status.viewsWaiting += own->service->status().viewsWaiting;
             if (own->waiting) ++status.viewsWaiting;
+            if (!own->service) continue;
+            const RenderStatus of = own->service->status();
+            addCounts(status, of);
+            status.viewsWaiting += of.viewsWaiting;
+            if (status.gpuGivenUp.empty()) status.gpuGivenUp = of.gpuGivenUp;
         }
+        addCounts(status, ended_);
         return status;
     }
 
@@ -171,6 +185,7 @@ private:
                 if (!own->ended) own_.erase(view);
             } else if (own->ended) {
                 unwanted = *std::move(made);
+                addCounts(ended_, unwanted->status());
             } else {
                 own->service = *std::move(made);
                 for (const auto& [id, packed] : datasets_) {
@@ -228,7 +243,9 @@ private:
         const std::shared_ptr<OwnService> own = found->second;
         own_.erase(found);
         own->ended = true;
-        if (own->service) run([own] { own->service.reset(); });
+        if (!own->service) return;
+        addCounts(ended_, own->service->status());
+        run([own] { own->service.reset(); });
     }
 
     /// On a thread of its own; needs the lock.
@@ -245,6 +262,7 @@ private:
     std::unique_ptr<RenderService> shared_;
     std::map<std::string, base::FileDescriptor> datasets_;
     std::map<std::uint64_t, std::shared_ptr<OwnService>> own_;
+    RenderStatus ended_;  ///< The counts of services that are gone.
     Quarantine quarantine_;
     std::list<std::future<void>> tasks_;
 };

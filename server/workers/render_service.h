@@ -87,6 +87,9 @@ struct RenderSettings {
     std::chrono::milliseconds heartbeatInterval{1'000};  ///< An idle worker is asked this often.
     std::chrono::milliseconds heartbeatDeadline{3'000};  ///< And has this long to answer.
     bool warmSpare = true;
+    /// A view whose scenes take down workers again and again keeps to its last good one for a
+    /// while, for the sake of others. See SceneTrust.
+    bool pausesViews = true;
     std::optional<worker::FaultSpec> fault;  ///< Armed in each worker from its start.
     std::string shaderFolder;  ///< Chunks are read from here; empty: the embedded ones.
     /// Of GPU memory: a channel of voxels that takes more is drawn from a pool of bricks of so

@@ -149,6 +149,22 @@ void Supervisor::submit(TimedRequest timed) {
                         "this took down two GL workers before and is not drawn again", "scene"));
 }
 
+bool Supervisor::refusePaused(const RenderRequest& request) {
+    const auto pause = settings_.pausesViews ? views_.pause(request, Clock::now())
+                                             : std::optional<ViewQueue::Pause>{};
+    if (!pause) return false;
+    if (events_.failed) {
+        events_.failed(request.view, request.tag,
+                       fail(ErrorCode::kDeviceLost,
+                            std::to_string(pause->scenes) +
+                                " scenes of this view took down GL workers; it keeps to the last "
+                                "one that was drawn for another " +
+                                std::to_string(pause->left.count()) + " s",
+                            "scene"));
+    }
+    return true;
+}
+
 void Supervisor::change(const Inbox::DatasetChange& change) {
     views_.forgive();
     if (change.packed) {
@@ -299,6 +315,7 @@ void Supervisor::dispatch() {
         if (!next && dispatchPick()) return;
         if (!next) return dispatchMeasure();
         const RenderRequest& request = next->request;
+        if (refusePaused(request)) continue;
         auto asked = main_->render(nextNumber_, request, settings_.frameDeadline);
         if (!asked) {
             views_.refused(request.view);

@@ -103,6 +103,8 @@ private:
     /// Where the GPU has lost too many workers, the next ones get the software device.
     void judgeGpu(const std::string& reason);
     void submit(TimedRequest timed);
+    /// Refuses a request whose view has to keep to another scene; false: it may be drawn.
+    bool refusePaused(const RenderRequest& request);
     /// The device of new workers may be a GPU.
     [[nodiscard]] bool onGpu() const;
 

@@ -41,6 +41,20 @@ void ViewQueue::hold(View& view, const RenderRequest& request) {
     view.held.push_back({.request = request, .however = !drawnOtherwise});
 }
 
+std::optional<ViewQueue::Pause> ViewQueue::pause(const RenderRequest& request,
+                                                 Clock::time_point now) const {
+    const auto found = views_.find(request.view);
+    if (found == views_.end()) return std::nullopt;
+    const View& view = found->second;
+    const std::chrono::seconds left = view.trust.pause(now);
+    if (left.count() == 0) return std::nullopt;
+    const bool cameraMatters = !view.held.empty() && !view.held.back().however;
+    const bool good = view.lastGood && (cameraMatters ? view.lastGood->scene == request.scene
+                                                      : sameScene(*view.lastGood, request));
+    if (good) return std::nullopt;
+    return Pause{.left = left, .scenes = view.trust.scenes()};
+}
+
 void ViewQueue::forgive() {
     for (auto& [id, view] : views_) view.held.clear();
 }
@@ -106,7 +120,10 @@ ViewQueue::Loss ViewQueue::lost(std::optional<RenderRequest> inFlight, Clock::ti
     std::erase(turns_, suspect);
     if (++view.lossesInARow >= kLossesToGiveUp) {
         view.lossesInARow = kLossesToGiveUp - 1;
-        if (!loss.proven) hold(view, *inFlight);
+        if (!loss.proven) {
+            hold(view, *inFlight);
+            view.trust.tookDownWorkers(now);
+        }
         loss.givenUp.push_back(*std::move(inFlight));
         const bool sameWaits = view.waiting && (loss.proven || holds(view.waiting->request));
         if (sameWaits) loss.givenUp.push_back(std::exchange(view.waiting, std::nullopt)->request);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "server/workers/render_service.h"
+#include "server/workers/scene_trust.h"
 
 namespace volcast::workers {
 
@@ -30,6 +31,16 @@ public:
     /// nor what pacing changes (size, hurry) makes a scene another one, unless the view has drawn
     /// it with others.
     [[nodiscard]] bool holds(const RenderRequest& request) const;
+    /// What a view may not be drawn with for a while.
+    struct Pause {
+        std::chrono::seconds left;
+        int scenes = 0;  ///< Of the view, that took down workers.
+    };
+    /// Whether `request` has to wait because scenes of its view took down workers again and again.
+    /// The last good one has not: from elsewhere, too, unless one was drawn well before and took
+    /// them down from elsewhere.
+    [[nodiscard]] std::optional<Pause> pause(const RenderRequest& request,
+                                             Clock::time_point now) const;
     /// Data has changed: what was held may be another picture now.
     void forgive();
 
@@ -82,6 +93,7 @@ private:
         std::optional<RenderRequest> lastGood;
         int lossesInARow = 0;
         std::deque<Held> held = {};
+        SceneTrust trust = {};
     };
     static void hold(View& view, const RenderRequest& request);
     void wait(std::uint64_t id, View& view, TimedRequest request);

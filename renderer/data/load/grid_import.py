@@ -59,15 +59,24 @@ def mapped_bytes(path, offset=0):
 
 
 def unpacked(data, method, expected):
-    """At most `expected` + 1 bytes of `data`, uncompressed: a small file may claim to be huge."""
+    """The bytes of `data`, uncompressed; of those of a small file there may be very many."""
     try:
         if method == "raw":
             return data
         if method == "bzip2":
-            return bz2.BZ2Decompressor().decompress(data, expected + 1)
-        return zlib.decompressobj(wbits=47).decompress(data, expected + 1)
+            plain = bz2.BZ2Decompressor().decompress(data, expected + 1)
+        else:
+            plain = zlib.decompressobj(wbits=47).decompress(data, expected + 1)
     except (zlib.error, OSError, EOFError) as error:
         raise Refusal(f"its compressed data is damaged ({error})") from error
+    return not_longer(plain, expected)
+
+
+def not_longer(plain, expected):
+    if len(plain) > expected:
+        raise Refusal(f"its compressed data holds more than the {expected} bytes that its header "
+                      "says")
+    return plain
 
 
 def numbers_of(data, dtype, count, what, tail=False):
@@ -82,12 +91,19 @@ def numbers_of(data, dtype, count, what, tail=False):
     return values.astype(dtype.newbyteorder("="), copy=False)
 
 
-def check_claim(path, count, itemsize, packed):
-    """Before memory is reserved: can a file of this size hold so many values?"""
-    size = os.path.getsize(path)
-    if count * itemsize > size * (1100 if packed else 1):
+# What a byte unpacks to at most; bzip2 knows no such bound.
+LARGEST_RATIOS = {"raw": 1, "zlib": 1100, "bzip2": math.inf}
+
+
+def check_claim(path, count, itemsize, method):
+    """Before memory is reserved: can a file of this size hold so many values, and the memory?"""
+    size, packed = os.path.getsize(path), method != "raw"
+    if count * itemsize > size * LARGEST_RATIOS[method]:
         raise Refusal(f"says {count} values of {itemsize} bytes, its data file "
                       f"{os.path.basename(path)} has {size} bytes", LIMIT if packed else INVALID)
+    if packed and count * itemsize > memory_limit():  # What is not packed is mapped.
+        raise Refusal(f"unpacks to {count * itemsize} bytes, this import may use {memory_limit()}",
+                      LIMIT)
 
 
 def channels_of(values, parts, name, count):
@@ -164,6 +180,7 @@ def read_meta(path, send):
     big = keys.get("BinaryDataByteOrderMSB", keys.get("ElementByteOrderMSB", "False"))
     dtype = (">" if big.lower() == "true" else "<") + META_TYPES[keys["ElementType"]]
     packed = keys.get("CompressedData", "False").lower() == "true"
+    method = "zlib" if packed else "raw"
     name = keys["ElementDataFile"]
     if name == "LIST" or "%" in name:
         raise Refusal("its values lie in several files; only one is read", UNSUPPORTED)
@@ -172,11 +189,11 @@ def read_meta(path, send):
     if not local and not os.path.exists(data_path):
         raise Refusal(f"its data file {name} does not exist", NOT_FOUND)
     needed = count * parts * int(dtype[2:])
-    check_claim(data_path, count * parts, int(dtype[2:]), packed)
+    check_claim(data_path, count * parts, int(dtype[2:]), method)
     skip = int(keys.get("HeaderSize", "0"))
     read = read_bytes if packed else mapped_bytes
     data = read(data_path, offset if local else max(skip, 0))
-    data = unpacked(data, "zlib" if packed else "raw", needed)
+    data = unpacked(data, method, needed)
     values = numbers_of(data, dtype, count * parts, f"its data file {os.path.basename(data_path)}",
                         tail=skip == -1)
     matrix = floats(keys, ("TransformMatrix", "Rotation", "Orientation"), 9,
@@ -286,13 +303,11 @@ def read_nrrd(path, send):
     if not os.path.exists(data_path):
         raise Refusal(f"its data file {name} does not exist", NOT_FOUND)
     itemsize = int(code[1])
-    if method != "bzip2":
-        check_claim(data_path, count * parts, itemsize, method != "raw")
+    check_claim(data_path, count * parts, itemsize, method)
     skip = int(fields.get("byteskip", "0"))
     read = mapped_bytes if method == "raw" else read_bytes
     data = read(data_path, 0 if name else offset)
-    data = data[skip:] if skip > 0 and method == "raw" else data
-    data = unpacked(data, method, count * parts * itemsize)
+    data = unpacked(data, method, count * parts * itemsize + max(skip, 0))[max(skip, 0):]
     order = ">" if fields.get("endian", "little") == "big" else "<"
     values = numbers_of(data, order + code, count * parts,
                         f"its data ({os.path.basename(data_path)})", tail=skip == -1)
@@ -369,9 +384,11 @@ def read_nifti(path, send):
     if not (348 <= offset <= 1 << 20):
         raise Refusal(f"its values start at byte {offset}")
     dtype = order + NIFTI_TYPES[number]
-    check_claim(path, count * parts, int(dtype[2:]), path.lower().endswith(".gz"))
-    data = nifti_bytes(path, int(offset) + count * parts * int(dtype[2:]))[int(offset):]
-    values = numbers_of(data, dtype, count * parts, "its data")
+    packed = path.lower().endswith(".gz")
+    check_claim(path, count * parts, int(dtype[2:]), "zlib" if packed else "raw")
+    end = int(offset) + count * parts * int(dtype[2:])
+    data = not_longer(nifti_bytes(path, end + 1), end) if packed else nifti_bytes(path, end)
+    values = numbers_of(memoryview(data)[int(offset):], dtype, count * parts, "its data")
     if math.isfinite(slope) and slope != 0 and (slope, intercept) != (1.0, 0.0):
         values = (values.astype("f8") * slope + intercept).astype("f4")
         send.warning(f"voxels are scaled by {slope:g} and shifted by {intercept:g}, as the file "

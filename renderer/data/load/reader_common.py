@@ -3,7 +3,8 @@
 A reader runs as a child of volcast-import, inside its sandbox, and writes records to a pipe:
 `kind` u32, `text bytes` u32, `data bytes` u64 (little-endian), then text and data. The other end
 (python_reader.cpp) trusts nothing of it. The arguments are: path, descriptor to write to,
-descriptor with a seccomp program to load before anything of the file is read.
+descriptor with a seccomp program to load before anything of the file is read, process id of the
+parent.
 """
 
 import ctypes
@@ -24,11 +25,13 @@ class Refusal(Exception):
         self.code = code
 
 
-def give_up_rights(program_fd):
+def give_up_rights(program_fd, parent):
     """Dies with the parent, and refuses to execute anything from here on."""
     libc = ctypes.CDLL(None, use_errno=True)
     parent_death_signal, set_seccomp, filter_mode, sigkill = 1, 22, 2, 9
     libc.prctl(parent_death_signal, sigkill, 0, 0, 0)
+    if os.getppid() != parent:  # It has died before that.
+        os._exit(1)
     program = os.read(program_fd, 1 << 16)
     os.close(program_fd)
     buffer = ctypes.create_string_buffer(program, len(program))
@@ -39,6 +42,12 @@ def give_up_rights(program_fd):
     loaded = Fprog(len(program) // 8, ctypes.addressof(buffer))
     if libc.prctl(set_seccomp, filter_mode, ctypes.byref(loaded), 0, 0) != 0:
         raise OSError(ctypes.get_errno(), "cannot load the seccomp filter")
+
+
+def memory_limit():
+    """Bytes of memory that this import may use; no file, none in memory either, may be longer."""
+    import resource
+    return resource.getrlimit(resource.RLIMIT_FSIZE)[0]
 
 
 class Sender:
@@ -176,10 +185,10 @@ def send_volume(send, size, spacing, origin, direction, channels):
 
 def run(read):
     """Runs `read(path, send)` and turns whatever it raises into one refusal."""
-    path, out, program = sys.argv[1], int(sys.argv[2]), int(sys.argv[3])
+    path, out, program, parent = sys.argv[1], *(int(word) for word in sys.argv[2:5])
     send = Sender(out)
     try:
-        give_up_rights(program)
+        give_up_rights(program, parent)
         read(path, send)
         send.record(END)
     except Refusal as refusal:

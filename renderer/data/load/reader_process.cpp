@@ -62,7 +62,8 @@ int spawnPython(const std::string& program, const std::string& path, int records
                                    program,
                                    path,
                                    std::to_string(kRecordsFd),
-                                   std::to_string(kFilterFd)};
+                                   std::to_string(kFilterFd),
+                                   std::to_string(::getpid())};
     std::vector<char*> arguments;
     arguments.reserve(words.size() + 1);
     for (std::string& word : words) arguments.push_back(word.data());

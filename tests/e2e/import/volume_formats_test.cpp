@@ -81,6 +81,7 @@ head = ('NRRD0004\n# a comment\ntype: {0}\ndimension: 3\nsizes: 5 4 3\nspace: le
         'space directions: (0,0.5,0) (1,0,0) (0,0,2)\nspace origin: (1,2,3)\nendian: {2}\nencoding: {1}\n')
 open('raw.nrrd', 'wb').write(head.format('ushort', 'raw', 'big').encode() + b'\n' + ramp.astype('>u2').tobytes())
 open('packed.nrrd', 'wb').write(head.format('float', 'gzip', 'little').encode() + b'\n' + gzip.compress(ramp.astype('<f4').tobytes()))
+open('skip.nrrd', 'wb').write(head.format('short', 'gzip', 'little').encode() + b'byte skip: 3\n\n' + gzip.compress(b'xyz' + ramp.astype('<i2').tobytes()))
 open('apart.nhdr', 'w').write(head.format('short', 'raw', 'little') + 'data file: apart.raw\n\n')
 open('apart.raw', 'wb').write(ramp.astype('<i2').tobytes())
 two = np.stack([ramp, ramp * 2], -1)
@@ -93,6 +94,7 @@ open('two.nrrd', 'wb').write(b'NRRD0004\ntype: int16\ndimension: 4\nsizes: 2 5 4
     EXPECT_EQ(raw.origin, glm::dvec3(1, 2, 3));
     EXPECT_NEAR(glm::distance(raw.direction[0], glm::dvec3(0, 1, 0)), 0.0, 1e-12);
     expectRamp<float>(volume(folder.path("packed.nrrd")), {5, 4, 3}, "packed");
+    expectRamp<std::int16_t>(volume(folder.path("skip.nrrd")), {5, 4, 3}, "skip");
     expectRamp<std::int16_t>(volume(folder.path("apart.nhdr")), {5, 4, 3}, "apart");
     const data::Volume two = volume(folder.path("two.nrrd"));
     expectRamp<std::int16_t>(two, {5, 4, 3}, "two");

@@ -6,6 +6,7 @@
 
 #include "tests/e2e/server/raw_socket.h"
 #include "tests/e2e/server/shared_server.h"
+#include "tests/e2e/server/shell.h"
 
 namespace volcast::test {
 namespace {
@@ -256,19 +257,27 @@ TEST_F(Uploads, AFileThatPointsAtOthersReadsNone) {
     }
 }
 
-// 64 GiB of zeros that a few bytes unpack to: the import's memory is limited, the server's
-// untouched.
+// 1 GiB of zeros that less than 1 MiB unpacks to, whether the header says so or not: the import's
+// memory is limited, the server's untouched.
 TEST_F(Uploads, ABombIsDefusedByTheImport) {
-    const std::string header =
-        "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 4096 4096 4096\n"
-        "encoding: gzip\n\n";
-    // An empty deflate stream; that the header promises more is what an importer has to survive.
-    const std::string packed{"\x1f\x8b\x08\0\0\0\0\0\0\x03\x03\0\0\0\0\0\0\0\0\0", 20};
-    EXPECT_EQ(put("bomb.nrrd", header + packed).status, 201U);
-    EXPECT_EQ(finish("bomb").status, 201U);
-    const auto info = failedImport(port(), "uploads/bomb/bomb.nrrd");
-    EXPECT_EQ(info.state(), v1::DATASET_STATE_FAILED);
-    EXPECT_THAT(info.error(), HasSubstr("bomb.nrrd"));
+    const TemporaryFolder made;
+    const auto [said, status] = outputOf("cd '" + made.path().string() +
+                                         "' && /usr/bin/python3 -I " VOLCAST_SOURCE_DIR
+                                         "/tests/support/bombs.py honest.nrrd small.nii.gz");
+    ASSERT_EQ(status, 0) << said;
+    const std::vector<std::pair<std::string, std::string>> bombs{
+        {"honest.nrrd", "unpacks to 1073741824 bytes, this import may use 268435456"},
+        {"small.nii.gz", "holds more than the 416 bytes that its header says"}};
+    for (const auto& [name, reason] : bombs) {
+        token += "x";
+        const std::string bomb = textOf(made.path() / name);
+        EXPECT_GT(bomb.size(), 900'000U);
+        EXPECT_EQ(put(name, bomb).status, 201U);
+        EXPECT_EQ(finish("bomb%20" + name.substr(0, 1)).status, 201U);
+        const auto info = failedImport(port(), "uploads/bomb " + name.substr(0, 1) + "/" + name);
+        EXPECT_EQ(info.state(), v1::DATASET_STATE_FAILED) << name;
+        EXPECT_THAT(info.error(), AllOf(HasSubstr(name), HasSubstr(reason)));
+    }
     EXPECT_EQ(http(port(), "/healthz").status, 200U);
 }
 

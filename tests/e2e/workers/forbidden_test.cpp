@@ -53,6 +53,7 @@ void expectAllRefused(const Printed& printed) {
     }
     EXPECT_GT(count, 50U);
     for (const char* what : {"socket of IPv4", "connect", "execve", "fork", "clone of a process",
+                             "leave the process group", "leave the session", "outlive the parent",
                              "make a file", "read /etc/passwd", "list the home folder",
                              "ptrace of the parent", "tgkill of the parent", "mount", "io_uring",
                              "bpf", "keyctl", "userfaultfd", "a file past RLIMIT_FSIZE"}) {
@@ -81,6 +82,9 @@ TEST(Forbidden, IsFoundToBeLetThroughWithoutASandbox) {
         const bool found = text.find("socket of IPv4: LET THROUGH (done)") != std::string::npos &&
                            text.find("execve: LET THROUGH (ENOENT)") != std::string::npos &&
                            text.find("fork: LET THROUGH (done)") != std::string::npos &&
+                           text.find("leave the process group: LET THROUGH") != std::string::npos &&
+                           text.find("leave the session: LET THROUGH") != std::string::npos &&
+                           text.find("outlive the parent: LET THROUGH") != std::string::npos &&
                            text.find("tgkill of the parent: LET THROUGH") != std::string::npos &&
                            text.find("make a file: LET THROUGH (done)") != std::string::npos &&
                            text.find("RLIMIT_FSIZE: LET THROUGH") != std::string::npos;

@@ -98,7 +98,7 @@ TEST(IsolatingService, AHangStallsNoOtherViewAndEndsInQuarantine) {
     }
     EXPECT_GT(tag, 4U);
     EXPECT_EQ(service.pid(), shared) << "the shared worker was never lost";
-    EXPECT_EQ(service.service->status().losses, 0U);
+    EXPECT_EQ(service.service->status().losses, 2U) << "of workers for code of users";
     const auto error = service.events->waitForFailure(2, 10);
     ASSERT_TRUE(error);
     EXPECT_EQ(error->code, ErrorCode::kDeviceLost);
@@ -112,6 +112,31 @@ TEST(IsolatingService, AHangStallsNoOtherViewAndEndsInQuarantine) {
     EXPECT_THAT(refused->message, HasSubstr("which begins with \"void main() { float x = 0.5;"));
     EXPECT_THAT(refused->message, HasSubstr("took down two GL workers and is not run again"));
     EXPECT_TRUE(service.draw(byCode(service, 2, 12, kQuick))) << "other code of the view";
+    const workers::RenderStatus before = service.service->status();
+    EXPECT_EQ(before.losses, 2U);
+    EXPECT_GE(before.starts, 4U) << "the shared one, two that were lost, and their successor";
+    EXPECT_THAT(before.lastLoss, HasSubstr("missed its deadline of 3000 ms"));
+    service.service->dropView(2);
+    const workers::RenderStatus after = service.service->status();
+    EXPECT_EQ(after.losses, 2U) << "counts stay when their service ends";
+    EXPECT_GE(after.starts, before.starts);
+}
+
+TEST(IsolatingService, TellsOfAGpuThatAWorkerOfAViewGaveUp) {
+    workers::RenderSettings settings = quickSettings();
+    settings.gpu = "0";
+    settings.warmSpare = false;
+    settings.fault = worker::FaultSpec{.fault = worker::Fault::kLoseGpu, .after = 2};
+    const Service service = startIsolatingService(settings);
+    ASSERT_TRUE(service.service);
+    EXPECT_EQ(service.service->status().gpuGivenUp, "");
+    std::uint64_t tag = 1;
+    while (service.service->status().gpuGivenUp.empty() && tag < 50) {
+        workers::RenderRequest moved = byCode(service, 2, tag++, kQuick);
+        moved.scene.camera.eye.x += 0.1 * static_cast<double>(tag);
+        ASSERT_TRUE(service.draw(moved));
+    }
+    EXPECT_THAT(service.service->status().gpuGivenUp, HasSubstr("the GPU 0 lost 3 workers"));
 }
 
 // Its loop is bounded by a constant, and a control says how much of it is run.

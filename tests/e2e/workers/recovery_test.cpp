@@ -127,6 +127,42 @@ TEST(Recovery, AFrameThatMissesItsDeadlineTwiceFailsAndTheOthersGoOn) {
     EXPECT_TRUE(noneLeftBehind());
 }
 
+// Each would cost everybody two more workers and deadlines.
+TEST(Recovery, AViewWithOneEndlessSceneAfterAnotherIsToldToWait) {
+    workers::RenderSettings settings = quickSettings();
+    settings.frameDeadline = milliseconds{4'000};
+    const Service service = startService(settings);
+    ASSERT_TRUE(service.service);
+    const auto good = service.draw(service.request(2, 1));
+    ASSERT_TRUE(good);
+    const auto endless = [&](std::uint64_t tag) {
+        workers::RenderRequest request = service.endlessRequest(2, tag);
+        request.scene.layers[0].stepWorld *= 1.0 + 0.01 * static_cast<double>(tag);
+        return request;
+    };
+    for (const std::uint64_t tag : {10, 11}) {
+        service.service->submit(endless(tag));
+        const auto failure = service.events->waitForFailure(2, tag);
+        ASSERT_TRUE(failure);
+        EXPECT_NE(failure->message.find("took down two GL workers in a row"), std::string::npos);
+        ASSERT_TRUE(service.draw(service.request(2, tag + 10)));
+    }
+    EXPECT_EQ(service.service->status().losses, 4U);
+    service.service->submit(endless(12));
+    const auto refused = service.events->waitForFailure(2, 12);
+    ASSERT_TRUE(refused);
+    EXPECT_EQ(refused->code, ErrorCode::kDeviceLost);
+    EXPECT_EQ(refused->field, "scene");
+    EXPECT_NE(refused->message.find("2 scenes of this view took down GL workers"),
+              std::string::npos);
+    EXPECT_NE(refused->message.find("drawn for another "), std::string::npos) << refused->message;
+    const auto again = service.draw(service.request(2, 13));
+    ASSERT_TRUE(again);
+    EXPECT_EQ(again->picture->rgba8, good->picture->rgba8);
+    EXPECT_TRUE(service.draw(service.request(3, 30, "mesh"))) << "another view, as it likes";
+    EXPECT_EQ(service.service->status().losses, 4U);
+}
+
 TEST(Recovery, DeathOfTheSpareIsNoticedAndDisturbsNobody) {
     const Service service = startService();
     ASSERT_TRUE(service.service);

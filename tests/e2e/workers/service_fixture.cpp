@@ -2,10 +2,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <filesystem>
-#include <fstream>
-#include <thread>
-#include <unistd.h>
 
 #include "renderer/data/mesh_builder.h"
 #include "renderer/data/packed_dataset.h"
@@ -15,7 +11,6 @@
 
 namespace volcast::test {
 
-namespace fs = std::filesystem;
 using workers::RenderedFrame;
 
 template <class Predicate>
@@ -132,50 +127,6 @@ std::vector<std::uint64_t> Events::viewsInOrder() const {
     std::vector<std::uint64_t> views;
     for (const RenderedFrame& frame : frames_) views.push_back(frame.view);
     return views;
-}
-
-bool eventually(const std::function<bool()>& predicate) {
-    const auto until = std::chrono::steady_clock::now() + kPatience;
-    while (!predicate()) {
-        if (std::chrono::steady_clock::now() > until) return false;
-        std::this_thread::sleep_for(std::chrono::milliseconds{2});
-    }
-    return true;
-}
-
-namespace {
-
-/// State and parent from /proc/PID/stat; the name between them may hold anything.
-struct Stat {
-    std::string state;
-    int parent = 0;
-};
-
-std::optional<Stat> statOf(const fs::path& folder) {
-    std::ifstream file{folder / "stat"};
-    std::string text;
-    if (!std::getline(file, text)) return std::nullopt;
-    const std::size_t end = text.rfind(')');
-    if (end == std::string::npos || end + 4 > text.size()) return std::nullopt;
-    return Stat{.state = text.substr(end + 2, 1), .parent = std::stoi(text.substr(end + 4))};
-}
-
-}  // namespace
-
-std::vector<int> childrenOf(int pid) {
-    std::vector<int> children;
-    for (const fs::directory_entry& entry : fs::directory_iterator{"/proc"}) {
-        const std::string name = entry.path().filename();
-        if (name.find_first_not_of("0123456789") != std::string::npos) continue;
-        const auto stat = statOf(entry.path());
-        if (stat && stat->parent == pid) children.push_back(std::stoi(name));
-    }
-    return children;
-}
-
-std::string stateOf(int pid) {
-    const auto stat = statOf(fs::path{"/proc"} / std::to_string(pid));
-    return stat ? stat->state : std::string{};
 }
 
 data::Dataset blockVolume(int side) {

@@ -14,11 +14,9 @@
 
 #include "renderer/data/dataset.h"
 #include "server/workers/render_service.h"
+#include "tests/support/processes.h"
 
 namespace volcast::test {
-
-/// How long a test waits for something that must happen. Slow machines are no failure.
-inline constexpr std::chrono::seconds kPatience{60};
 
 /// Writes down what a render service tells, and waits for it.
 class Events {
@@ -53,14 +51,6 @@ private:
     std::vector<std::pair<std::uint64_t, Result<accuracy::Measurement>>> measurements_;
     std::vector<std::uint64_t> recovering_;
 };
-
-/// Polls until `predicate` holds; false after kPatience.
-bool eventually(const std::function<bool()>& predicate);
-
-/// Processes whose parent is `pid`, by /proc; a zombie counts.
-std::vector<int> childrenOf(int pid);
-/// State letter of a process ("R", "S", "T", "Z"); empty: there is none.
-std::string stateOf(int pid);
 
 data::Dataset blockVolume(int side);
 data::Dataset blockMesh();

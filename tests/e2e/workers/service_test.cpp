@@ -288,8 +288,10 @@ TEST(Worker, ThatExitsIsReplaced) {
     workers::RenderSettings settings = quickSettings();
     // Long enough to draw once; programs with sanitizers are slower.
     const std::string lifeS = base::kLimitsAddressSpace ? "4" : "12";
-    settings.workerPath = folder.script("exec timeout -s KILL " + lifeS + " " +
-                                        workers::besideThisProgram("volcast-worker") + " \"$@\"");
+    // Its parent is `timeout`, not we.
+    settings.workerPath =
+        folder.script("exec timeout -s KILL " + lifeS + " env -u VOLCAST_PARENT " +
+                      workers::besideThisProgram("volcast-worker") + " \"$@\"");
     const Service service = startService(settings);
     ASSERT_TRUE(service.service);
     const auto before = service.draw(service.request(1, 1));
@@ -363,6 +365,13 @@ TEST(Worker, EndsWithACodeOfItsOwnOnAMessageItDoesNotKnow) {
     const workers::ExitStatus status = worker.child.reap();
     EXPECT_FALSE(status.signalled) << status.text();
     EXPECT_EQ(status.value, 6);
+}
+
+// Where memory runs out, the kernel ends a worker and not the server.
+TEST(Worker, IsEndedBeforeTheServerWhereMemoryRunsOut) {
+    const BareWorker worker = startBareWorker();
+    const int own = std::stoi(procText(::getpid(), "oom_score_adj"));
+    EXPECT_EQ(std::stoi(procText(worker.child.pid(), "oom_score_adj")), std::min(own + 500, 1000));
 }
 
 TEST(Worker, MayNotOpenTheUsersFiles) {

@@ -1,6 +1,7 @@
 #include "renderer/base/sandbox.h"
 
 #include <cerrno>
+#include <csignal>
 #include <cstdlib>
 #include <fcntl.h>
 #include <filesystem>
@@ -138,6 +139,23 @@ TEST_F(Sandbox, RefusesToExecuteAndToForkUnlessAllowed) {
             generous,
             [] { return errnoOf(::syscall(SYS_clone, CLONE_NEWUSER | SIGCHLD, 0, 0, 0, 0)); }),
         EPERM);
+}
+
+// Its process group is what its server ends it by, and its parent's death the other way.
+TEST_F(Sandbox, NobodyLeavesTheGroupAndOnlyWhatExecutesTiesItselfToAnotherParent) {
+    const auto leaveGroup = [] { return errnoOf(::setpgid(0, 0)); };
+    const auto leaveSession = [] { return errnoOf(::syscall(SYS_setsid)); };
+    const auto die = [] {
+        return errnoOf(::syscall(SYS_prctl, (1UL << 32) | PR_SET_PDEATHSIG, SIGKILL, 0, 0, 0));
+    };
+    SandboxPolicy generous = policy();
+    generous.mayExecute = true;
+    for (const SandboxPolicy& one : {policy(), generous}) {
+        EXPECT_EQ(inSandbox(one, leaveGroup), EPERM);
+        EXPECT_EQ(inSandbox(one, leaveSession), EPERM);
+    }
+    EXPECT_EQ(inSandbox(policy(), die), EPERM);
+    EXPECT_EQ(inSandbox(generous, die), 0);
 }
 
 TEST_F(Sandbox, ASecondCallTakesExecutionAway) {

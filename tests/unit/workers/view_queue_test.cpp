@@ -178,6 +178,62 @@ TEST(ViewQueue, WhatWasGivenUpIsHeldWhereverItIsSeenFrom) {
     EXPECT_FALSE(queue.holds(bad));
 }
 
+/// A scene that differs from others a little.
+RenderRequest endless(std::uint64_t view, std::uint64_t tag) {
+    RenderRequest result = request(view, tag);
+    result.scene.layers.emplace_back().stepWorld = 1e-5 * static_cast<double>(tag);
+    return result;
+}
+
+/// Two workers are lost over what is drawn next.
+void giveUpNext(ViewQueue& queue) {
+    queue.lost(queue.next()->request, kNow);
+    ASSERT_EQ(queue.lost(queue.next()->request, kNow).givenUp.size(), 1U);
+}
+
+TEST(ViewQueue, AfterTwoScenesThatWereGivenUpTheViewKeepsToItsGoodOneForAWhile) {
+    ViewQueue queue;
+    for (const std::uint64_t tag : {10, 11}) {
+        EXPECT_FALSE(queue.pause(endless(1, tag), kNow)) << tag;
+        queue.submit(request(1, 1), kNow);
+        queue.succeeded(queue.next()->request);  // The good scene in between pardons nothing.
+        queue.submit(endless(1, tag), kNow);
+        giveUpNext(queue);
+        queue.submit(request(1, 1), kNow);
+        queue.succeeded(queue.next()->request);
+    }
+    const auto pause = queue.pause(endless(1, 12), kNow);
+    ASSERT_TRUE(pause);
+    EXPECT_EQ(pause->left, std::chrono::seconds{30});
+    EXPECT_EQ(pause->scenes, 2);
+    RenderRequest good = request(1, 2);
+    good.scene.camera.eye.x += 1.0;
+    good.size = {7, 7};
+    EXPECT_FALSE(queue.pause(good, kNow));
+    EXPECT_FALSE(queue.pause(endless(2, 12), kNow)) << "another view";
+    queue.forgive();
+    EXPECT_TRUE(queue.pause(endless(1, 12), kNow)) << "whatever became of the data";
+    EXPECT_FALSE(queue.pause(endless(1, 12), kNow + std::chrono::seconds{30}));
+}
+
+TEST(ViewQueue, WhereCamerasTookWorkersDownTheViewKeepsToThatOfItsGoodPicture) {
+    ViewQueue queue;
+    for (const double shift : {1.0, 2.0}) {
+        queue.submit(request(1, 1), kNow);
+        queue.succeeded(queue.next()->request);
+        RenderRequest bad = request(1, 2);
+        bad.scene.camera.eye.x += shift;
+        queue.submit(bad, kNow);
+        giveUpNext(queue);
+    }
+    RenderRequest moved = request(1, 3);
+    moved.scene.camera.eye.x += 3.0;
+    EXPECT_TRUE(queue.pause(moved, kNow));
+    moved = request(1, 4);
+    moved.size = {7, 7};
+    EXPECT_FALSE(queue.pause(moved, kNow));
+}
+
 TEST(ViewQueue, OfASceneThatWasDrawnFromElsewhereTheCameraIsHeld) {
     ViewQueue queue;
     queue.submit(request(1, 1), kNow);
