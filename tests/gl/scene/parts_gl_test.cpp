@@ -34,7 +34,7 @@ protected:
         layer.id = "layer " + std::to_string(scene_.layers.size());
         layer.dataset = dataset;
         layer.model = model;
-        if (model == RayModel::kVolume) layer.map = support::fog(0.2F);
+        layer.map = support::fog(0.2F);
         if (model == RayModel::kIsosurface) layer.levels.values = {0.4F};
         return layer;
     }
