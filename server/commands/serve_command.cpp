@@ -102,6 +102,7 @@ session::CatalogueDesc catalogueOf(const ServeSettings& settings, workers::Fault
     session::CatalogueDesc desc;
     desc.folder = settings.dataFolder;
     desc.imports = settings.imports;
+    desc.imports.beneath = settings.dataFolder;
     desc.importsAtOnce = settings.importsAtOnce;
     if (!settings.allowFaults) return desc;
     spdlog::warn("event=faults_allowed message=\"any client may let workers and imports fail\"");
