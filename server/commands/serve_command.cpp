@@ -118,6 +118,7 @@ session::CatalogueDesc catalogueOf(const ServeSettings& settings, workers::Fault
     session::CatalogueDesc desc;
     desc.folder = settings.dataFolder;
     desc.imports = settings.imports;
+    desc.imports.beneath = settings.dataFolder;
     desc.importsAtOnce = settings.importsAtOnce;
     desc.maxDataBytes = settings.maxDataBytes;
     if (!settings.allowFaults) return desc;

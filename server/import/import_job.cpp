@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <filesystem>
 #include <new>
 #include <sys/resource.h>
 #include <utility>
@@ -19,6 +20,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 namespace messages = volcast::internal::v1;
+namespace fs = std::filesystem;
 
 /// Address space that the program needs besides what it reads, for libraries and stacks: ours,
 /// Python with VTK (0.2 GB), or OpenImageIO with what it links (0.9 GB).
@@ -83,6 +85,21 @@ base::SandboxPolicy policyFor(const data::load::Request& request,
     return policy;
 }
 
+/// Keeps to the folder that the request has to lie below. A link may have been put into its path
+/// since whoever asks has looked: what the sandbox of the dataset grants after this is taken from
+/// within that folder alone, wherever its paths lead by then.
+Result<void> stayBeneath(const data::load::Request& request) {
+    std::error_code error;
+    const fs::path folder = fs::canonical(request.beneath, error);
+    if (error) return fail(ErrorCode::kIo, request.beneath + ": " + error.message());
+    const fs::path real = fs::canonical(request.path, error);
+    if (error) return fail(ErrorCode::kIo, request.path + ": " + error.message());
+    if (std::ranges::mismatch(folder, real).in1 != folder.end()) {
+        return fail(ErrorCode::kIo, request.path + ": leads out of " + request.beneath);
+    }
+    return base::enterSandbox(policyFor(request, {folder}));
+}
+
 struct Outcome {
     base::FileDescriptor packed;
     std::string format;
@@ -114,6 +131,9 @@ Result<Outcome> import(const data::load::Request& request, data::load::ImageRead
                        ProgressSender& progress, std::optional<worker::Fault> fault) {
     const auto paths = data::load::neededPaths(request.path);
     if (!paths) return paths.error();
+    if (!request.beneath.empty() && !paths->empty()) {
+        if (auto kept = stayBeneath(request); !kept) return kept.error();
+    }
     auto sandboxed = base::enterSandbox(policyFor(request, *paths));
     if (!sandboxed) return sandboxed.error();
     if (fault) strike(*fault);

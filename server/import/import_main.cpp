@@ -42,6 +42,7 @@ int importMain(int argc, char** argv, data::load::ImageReader readImages) {
     app.add_option("--tetgen-switches", request.tetgenSwitches, "How TetGen fills surfaces");
     app.add_option("--spacing", spacing, "Of the slices of image stacks")->expected(3);
     app.add_option("--max-memory", request.maxMemoryBytes, "In bytes");
+    app.add_option("--beneath", request.beneath, "Read nothing but what lies below this folder");
     app.add_option("--max-cpu", request.maxCpuSeconds, "In seconds, of all threads; 0: no limit");
     std::optional<worker::Fault> fault;
     app.add_option_function<std::string>(

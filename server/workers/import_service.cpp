@@ -190,6 +190,9 @@ Result<ImportedDataset> runImport(
     if (const auto fault = settings.fault ? settings.fault() : std::nullopt) {
         desc.arguments.insert(desc.arguments.begin(), "--fault=" + worker::toText(*fault));
     }
+    if (!settings.beneath.empty()) {
+        desc.arguments.insert(desc.arguments.begin(), "--beneath=" + settings.beneath);
+    }
     auto child = ChildProcess::spawn(desc);
     if (!child) return child.error();
     pair->theirs = {};  // Else its end would not be noticed.

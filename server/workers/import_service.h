@@ -27,6 +27,7 @@ struct ImportSettings {
     std::string importPath;  ///< Empty: `volcast-import` beside this program.
     std::chrono::milliseconds deadline{120'000};
     std::uint64_t maxMemoryBytes = std::uint64_t{8} << 30;
+    std::string beneath = {};  ///< Nothing outside of this folder is read; empty: any path may be.
     /// Asked once for each import, on its thread: how it is to fail. Empty: no import is.
     std::function<std::optional<worker::FaultSpec>()> fault = {};
 };

@@ -21,6 +21,7 @@ struct Request {
     std::string tetgenSwitches = "pq1.414";  ///< For surfaces; point sets use none.
     glm::dvec3 spacing{0.0};                 ///< Of image stacks; 0: 1.
     std::uint64_t maxMemoryBytes = std::uint64_t{8} << 30;
+    std::string beneath;  ///< The folder that `path` must lie below, links followed; empty: any.
     std::uint64_t maxCpuSeconds = 0;  ///< Of all threads of one process; 0: no limit.
 };
 

@@ -299,6 +299,27 @@ TEST_F(BadInput, ALinkToADatasetIsFollowed) {
     EXPECT_EQ(volume(folder.path("good.mhd")).size, glm::ivec3(2));
 }
 
+// As a server imports: whatever has become of the path since it looked.
+TEST_F(BadInput, BeneathAFolderNoLinkLeadsOut) {
+    const TempFolder elsewhere;
+    elsewhere.write("good.raw", std::string(8, 's'));
+    elsewhere.write("good.mhd", mhd("2 2 2", "MET_UCHAR", "good.raw"));
+    std::filesystem::create_directory(folder.path("data"));
+    settings.beneath = folder.path("data");
+    folder.write("data/own.raw", std::string(8, 's'));
+    const std::string own = folder.write("data/own.mhd", mhd("2 2 2", "MET_UCHAR", "own.raw"));
+    EXPECT_EQ(volume(own).size, glm::ivec3(2));
+    EXPECT_FALSE(mesh("demo:mesh").cells.empty()) << "what is built in lies nowhere";
+    std::filesystem::create_symlink(elsewhere.path(), folder.path("data/out"));
+    expectRefused(folder.path("data/out/good.mhd"), ErrorCode::kIo, "leads out of");
+    std::filesystem::create_symlink(elsewhere.path("good.mhd"), folder.path("data/link.mhd"));
+    expectRefused(folder.path("data/link.mhd"), ErrorCode::kIo, "leads out of");
+    std::filesystem::create_symlink(own, folder.path("data/within.mhd"));
+    EXPECT_EQ(volume(folder.path("data/within.mhd")).size, glm::ivec3(2));
+    folder.write("data2.mhd", mhd("2 2 2", "MET_UCHAR", "data/own.raw"));
+    expectRefused(folder.path("data2.mhd"), ErrorCode::kIo, "leads out of");
+}
+
 TEST_F(BadInput, AMissingImporterIsNamed) {
     settings.importPath = folder.path("no-such-program");
     request.path = "demo:volume";
