@@ -12,6 +12,8 @@
 #include <vector>
 
 #include <benchmark/benchmark.h>
+#include <spdlog/sinks/stdout_sinks.h>
+#include <spdlog/spdlog.h>
 
 #include "renderer/data/mesh_builder.h"
 #include "renderer/data/packed_dataset.h"
@@ -223,6 +225,8 @@ void registerAll() {
 }  // namespace volcast::bench
 
 int main(int argc, char** argv) {
+    // What it measured is alone on standard output: it may be JSON.
+    spdlog::set_default_logger(spdlog::stderr_logger_mt("worker_bench"));
     volcast::bench::registerAll();
     benchmark::Initialize(&argc, argv);
     if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
