@@ -340,7 +340,8 @@ Progress DeviceRenderer::progressOf(const Frame& frame) {
 Result<bool> DeviceRenderer::drawLayers(const Frame& frame, Progress& progress) {
     std::vector<const LayerDraw*> order;
     for (const LayerDraw& draw : frame.draws) order.push_back(&draw);
-    std::ranges::stable_partition(order, [](const LayerDraw* draw) { return isOpaque(*draw); });
+    std::stable_partition(order.begin(), order.end(),
+                          [](const LayerDraw* draw) { return isOpaque(*draw); });
     if (progress.begins()) {
         const Picture& picture = *frame.picture;
         picture.transparentPass.clearColour(0, glm::vec4(0.0F));
