@@ -243,6 +243,9 @@ void addLimits(CLI::App& command, ServeSettings& settings) {
             },
             "A frame that takes longer costs its worker (default 10000)")
         ->check(CLI::Range(100, 3'600'000));
+}
+
+void addDataLimits(CLI::App& command, ServeSettings& settings) {
     command
         .add_option_function<std::int64_t>(
             "--import-deadline-ms",
@@ -268,8 +271,7 @@ void addLimits(CLI::App& command, ServeSettings& settings) {
             "--volume-budget",
             [&settings](std::uint64_t mib) { settings.render.volumeBudgetBytes = mib << 20U; },
             "MiB of GPU memory for all voxels of a scene: those that take more are drawn from "
-            "bricks "
-            "(default 1024)")
+            "bricks (default 1024)")
         ->check(CLI::Range(workers::kLeastVolumeBudgetMib, workers::kMostVolumeBudgetMib));
 }
 
@@ -393,6 +395,7 @@ void addServeCommand(CLI::App& app, int& exitCode) {
     addUploads(command, *settings);
     addConnections(command, *settings);
     addLimits(command, *settings);
+    addDataLimits(command, *settings);
     addFaults(command, *settings);
     command.callback([settings, &exitCode] { exitCode = serve(*settings); });
 }
