@@ -250,6 +250,10 @@ Result<void> DeviceRenderer::make(Frame& frame, Work work, FrameInfo& info) {
     if (larger != nullptr) view.picture = std::move(larger);
     if (!info.finished) {
         view.stale = true;
+        progress.scene = *frame.scene;
+        progress.size = frame.size;
+        progress.plan = frame.plan->id;
+        progress.generations = std::move(frame.generations);
         view.progress = std::move(progress);
         return {};
     }
@@ -330,11 +334,7 @@ Progress DeviceRenderer::progressOf(const Frame& frame) {
     const bool goesOn = last && frame.partMs > 0.0 && last->size == frame.size &&
                         last->plan == frame.plan->id && last->generations == frame.generations &&
                         last->scene == *frame.scene;
-    if (goesOn) return *last;
-    return {.scene = *frame.scene,
-            .size = frame.size,
-            .plan = frame.plan->id,
-            .generations = frame.generations};
+    return goesOn ? *last : Progress{};
 }
 
 Result<bool> DeviceRenderer::drawLayers(const Frame& frame, Progress& progress) {
